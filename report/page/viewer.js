@@ -1,96 +1,108 @@
-// Shows the grains and cracks of one test by WebGL 2: in the plane as discs and lines, in space as spheres and discs. The
-// grains lie where the loading began, so that a crack stands where it broke. Picking draws numbers in the place of colours.
+// Shows the grains and cracks of one test by WebGL 2: in the plane polygons and lines, in space spheres and discs. Grains
+// lie where the loading began, so that a crack stands where it broke. Picking draws numbers in place of colours.
 "use strict";
 const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const begun = performance.now();
   const inSpace = data.space;
 
+  // A sphere, disc or line is one point of the size that it has on the screen. Where a processor draws, each further vertex
+  // costs time, and an instance more than a vertex.
   const vertexHead = `#version 300 es
     precision highp float;
     precision highp int;
-    // One texel a shape, six vertices each: instances are slow where a processor draws.
-    uniform highp usampler2D places; // x, y, z and radius or size, as shares
-    uniform highp sampler2D tones, directions; // normal of a crack, direction of a flaw
+    uniform highp sampler2D tones; // the colour of each shape
     uniform mat3 turn;
     uniform vec3 middle;
-    uniform vec2 zoom, pan, pixel;
+    uniform vec2 zoom, pan;
     uniform vec4 cut;
-    uniform float extent, depth;
-    uniform int form; // 0: disc in space; 1: trace of a crack in the plane; 2: line
+    uniform float depth;
     uniform uint first, chosen;
     uniform bool picking;
-    out vec2 corner;
-    out float nearness;
-    flat out vec3 tone, facing;
-    flat out float thick;
-    vec3 numbered(int n, vec3 colour) {
+    flat out vec3 tone;
+    vec3 colour(int n) {
       uint id = first + uint(n) + 1u;
       if (picking)
         return vec3(id & 255u, (id >> 8) & 255u, id >> 16) / 255.0;
-      return id == chosen ? vec3(1.0, 0.88, 0.0) : colour;
+      return id == chosen ? vec3(1.0, 0.88, 0.0) : texelFetch(tones, ivec2(n % 2048, n / 2048), 0).rgb;
     }
-    void main() {
-      int n = gl_VertexID / 6, of = gl_VertexID % 6, turning = of == 3 ? 2 : of == 4 ? 1 : of;
-      corner = of == 5 ? vec2(1.0) : vec2(turning & 1, turning >> 1) * 2.0 - 1.0;
-      ivec2 texel = ivec2(n % 2048, n / 2048);
-      vec4 place = vec4(texelFetch(places, texel, 0)) / 65535.0;
-      vec3 along = texelFetch(directions, texel, 0).xyz;
-      tone = numbered(n, texelFetch(tones, texel, 0).rgb);
-      vec3 at = place.xyz - middle;
+    vec4 placed(vec3 at) {
       vec3 seen = turn * at;
-      vec2 aside = vec2(0.0);
-      float size = place.w * extent;
-      thick = size * depth;
-      facing = vec3(0.0);
-      bool hidden = dot(cut.xyz, at) > cut.w;`;
-  const vertexEnd = `
-      nearness = -seen.z * depth;
-      gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(seen.xy * zoom + pan + aside * pixel, nearness, 1.0);
+      return dot(cut.xyz, at) > cut.w ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(seen.xy * zoom + pan, -seen.z * depth, 1.0);
     }`;
-  const grainVertex = vertexHead + "seen.xy += corner * size;" + vertexEnd;
-  const crackVertex = vertexHead + `
-      if (form == 0) {
-        vec3 one = normalize(cross(along, abs(along.x) < 0.8 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
-        seen += turn * (corner.x * one + corner.y * normalize(cross(along, one))) * size * 0.564; // √(1/π)
-        facing = turn * normalize(along);
-      } else {
-        vec2 line = (turn * (form == 1 ? vec3(-along.y, along.x, 0.0) : along)).xy;
-        line = length(line) > 0.0 ? line / length(line) : vec2(1.0, 0.0);
-        float half_width = max(form == 1 ? 1.1 : 1.4, 0.06 * size * zoom.x / pixel.x);
-        seen.xy += line * corner.x * size * 0.5;
-        aside = vec2(-line.y, line.x) * corner.y * half_width;
-      }` + vertexEnd;
+  const pointVertex = vertexHead + `
+    layout(location = 0) in vec4 place; // and size, all as shares
+    layout(location = 1) in vec4 along; // the normal of a crack, the direction of a flaw
+    uniform float extent, pixels;
+    uniform int form; // 0: sphere; 1: disc in space; 2: trace of a crack in the plane; 3: line
+    flat out vec3 axis;
+    flat out float size, drawn; // radius, or half the length, and the radius of the point [px]
+    flat out float thick, nearness;
+    void main() {
+      tone = colour(gl_VertexID);
+      gl_Position = placed(place.xyz - middle);
+      nearness = gl_Position.z;
+      axis = turn * (form == 2 ? vec3(-along.y, along.x, 0.0) : along.xyz);
+      if (form == 1)
+        axis = normalize(vec3(axis.xy, abs(axis.z) < 0.2 ? 0.2 : axis.z)); // seen along its plane, a disc is still seen
+      size = place.w * extent * pixels * (form == 0 ? 1.0 : form == 1 ? 0.564 : 0.5); // √(1/π)
+      thick = size / pixels * depth;
+      drawn = size + (form > 1 ? 2.0 : 0.5);
+      gl_PointSize = 2.0 * drawn;
+    }`;
+  const facetVertex = vertexHead + `
+    layout(location = 0) in vec2 corner;
+    layout(location = 1) in float grain; // negative in its middle
+    out float rim;
+    void main() {
+      rim = grain < 0.0 ? 0.0 : 1.0;
+      tone = colour(int(abs(grain)) - 1);
+      gl_Position = placed(vec3(corner, 0.0) - middle);
+    }`;
   const fragmentHead = `#version 300 es
     precision highp float;
     precision highp int;
-    in vec2 corner;
-    in float nearness;
-    flat in vec3 tone, facing;
-    flat in float thick;
-    uniform int form;
-    uniform bool picking, space;
+    flat in vec3 tone;
+    uniform bool picking;
     out vec4 shown;
-    void main() {
-      float away = length(corner);
-      float light = 1.0, cover = 1.0;
-      gl_FragDepth = 0.5 + 0.5 * nearness;`;
-  const fragmentEnd = `
+    void show(float light, float cover) {
       shown = picking ? vec4(tone, 1.0) : vec4(tone * light * cover, cover);
     }`;
-  const grainFragment = fragmentHead + `
-      if (away > 1.0)
+  const pointFragment = fragmentHead + `
+    flat in vec3 axis;
+    flat in float size, drawn, thick, nearness;
+    uniform int form;
+    void main() {
+      vec2 at = (gl_PointCoord - 0.5) * vec2(2.0, -2.0) * drawn; // [px]
+      float height = 0.0, light = 1.0, cover = 1.0;
+      if (form > 1) {
+        float length = max(length(axis.xy), 1e-3);
+        vec2 line = axis.xy / length;
+        vec2 over = abs(vec2(dot(at, line), dot(at, vec2(-line.y, line.x)))) -
+                    vec2(size * (form == 2 ? 1.0 : length), max(form == 2 ? 1.0 : 1.3, 0.12 * size));
+        cover = clamp(0.5 - over.x, 0.0, 1.0) * clamp(0.5 - over.y, 0.0, 1.0);
+      } else {
+        at /= size;
+        float square = dot(at, at);
+        if (form == 0) {
+          height = sqrt(max(0.0, 1.0 - square));
+          light = 0.42 + 0.62 * max(0.0, dot(vec3(at, height), vec3(-0.37, 0.47, 0.8)));
+        } else {
+          height = -dot(at, axis.xy) / axis.z;
+          square += height * height;
+          light = 0.6 + 0.4 * abs(axis.z);
+        }
+        cover = step(square, 1.0);
+      }
+      if (cover == 0.0)
         discard;
-      if (space) {
-        float height = sqrt(1.0 - away * away);
-        light = 0.42 + 0.62 * max(0.0, dot(vec3(corner, height), vec3(-0.37, 0.47, 0.8)));
-        gl_FragDepth = 0.5 + 0.5 * (nearness - height * thick);
-      } else
-        cover = min(1.0, (1.0 - away) / fwidth(away));` + fragmentEnd;
-  const crackFragment = fragmentHead + `
-      if (form == 0 && away > 1.0)
-        discard;
-      if (form == 0)
-        light = 0.6 + 0.4 * abs(facing.z);` + fragmentEnd;
+      gl_FragDepth = 0.5 + 0.5 * (nearness - height * thick);
+      show(light, cover);
+    }`;
+  const facetFragment = fragmentHead + `
+    in float rim;
+    void main() {
+      show(mix(1.0, 0.62, clamp((rim - 1.0) / max(fwidth(rim), 1e-6) + 1.2, 0.0, 1.0)), 1.0);
+    }`;
 
   const box = element("div", figure.stage, {className: "specimen"});
   const canvas = element("canvas", box, {tabIndex: 0});
@@ -114,20 +126,15 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost())
       throw new Error(gl.getProgramInfoLog(made) + gl.getShaderInfoLog(gl.getAttachedShaders(made)[0]));
     const at = {};
-    for (const name of ["turn", "middle", "zoom", "pan", "pixel", "cut", "extent", "depth", "form", "first", "chosen", "picking", "space", "places", "tones", "directions"])
+    for (const name of ["turn", "middle", "zoom", "pan", "pixels", "cut", "extent", "depth", "form", "first", "chosen", "picking", "tones"])
       at[name] = gl.getUniformLocation(made, name);
     return {made, at};
   };
-  const ofGrains = program(grainVertex, grainFragment);
-  const ofCracks = program(crackVertex, crackFragment);
+  const ofPoints = program(pointVertex, pointFragment);
+  const ofFacets = program(facetVertex, facetFragment);
 
-  const decoded = (text, Kind) => {
-    const bytes = atob(text);
-    const buffer = new Uint8Array(bytes.length);
-    for (let k = 0; k < bytes.length; ++k)
-      buffer[k] = bytes.charCodeAt(k);
-    return new Kind(buffer.buffer);
-  };
+  const decoded = (text, Kind) =>
+    new Kind((Uint8Array.fromBase64?.(text) || Uint8Array.from(atob(text), one => one.charCodeAt(0))).buffer);
   const shares = 65535;
   const grains = {place: decoded(data.grains.place, Uint16Array), moved: decoded(data.grains.moved, Int16Array),
                   fragment: decoded(data.grains.fragment, Uint16Array), tone: decoded(data.grains.tone, Uint8Array)};
@@ -137,8 +144,13 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const nCracks = cracks.row.length;
   const coordinate = (place, k, axis) => data.low[axis] + (data.span * place[4 * k + axis]) / shares; // [mm]
 
-  // Flaws as lines of the same form as cracks.
-  const pieces = data.flaws.flatMap(flaw => flaw.outline.slice(1).map((to, k) => [flaw.outline[k], to]));
+  // Flaws as lines of the same form as cracks, in pieces that a point has room for.
+  const pieces = data.flaws.flatMap(flaw => flaw.outline.slice(1).flatMap((to, k) => {
+    const from = flaw.outline[k];
+    const n = Math.ceil(Math.hypot(...to.map((value, c) => value - from[c])) / (2 * data.radius)) || 1;
+    const at = m => from.map((value, c) => value + ((to[c] - value) * m) / n);
+    return Array.from({length: n}, (none, m) => [at(m), at(m + 1)]);
+  }));
   const flaws = {place: new Uint16Array(4 * pieces.length), along: new Int8Array(4 * pieces.length)};
   pieces.forEach(([from, to], k) => {
     const length = Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) || 1;
@@ -146,31 +158,84 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       flaws.place[4 * k + c] = Math.min(1, Math.max(0, ((from[c] + to[c]) / 2 - data.low[c]) / data.span)) * shares;
       flaws.along[4 * k + c] = (127 * (to[c] - from[c])) / length;
     }
-    flaws.place[4 * k + 3] = (Math.min(data.span, length) / data.span) * shares;
+    flaws.place[4 * k + 3] = (length / (2 * data.radius)) * shares;
   });
 
-  const columns = 2048; // of a texture
-  const fill = (texture, values, [inside, format, type]) => {
-    const rows = Math.max(1, Math.ceil(values.length / 4 / columns));
-    const whole = new values.constructor(4 * columns * rows);
-    whole.set(values);
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-    gl.texImage2D(gl.TEXTURE_2D, 0, inside, columns, rows, 0, format, type, whole);
+  // Grains in the plane bounded by their faces, by arcs where there is none: fans of triangles (x, y, number).
+  const facets = () => {
+    const [rim, gap] = [data.radius / data.span, data.gap / data.span];
+    const side = 2 * rim + gap;
+    const boxes = new Map();
+    const at = Array.from({length: nGrains}, (none, k) => [grains.place[4 * k] / shares, grains.place[4 * k + 1] / shares, (grains.place[4 * k + 3] / shares) * rim]);
+    const boxOf = (x, y) => 4096 * (1 + Math.floor(x / side)) + 1 + Math.floor(y / side);
+    at.forEach(([x, y], k) => boxes.set(boxOf(x, y), [...(boxes.get(boxOf(x, y)) || []), k]));
+    const corners = [];
+    let nFaces = 0;
+    at.forEach(([x, y, radius], k) => {
+      const faces = []; // direction, half the angle, distance
+      for (let c = 0; c < 9; ++c)
+        for (const other of boxes.get(boxOf(x + ((c % 3) - 1) * side, y + (Math.floor(c / 3) - 1) * side)) || []) {
+          const [right, up] = [at[other][0] - x, at[other][1] - y];
+          const open = Math.hypot(right, up) - radius - at[other][2];
+          if (other !== k && open <= gap) {
+            const far = radius + open / 2;
+            faces.push([Math.atan2(up, right), Math.atan(Math.min(radius, at[other][2]) / far), far]);
+          }
+        }
+      nFaces += faces.length;
+      const whole = 2 * Math.PI;
+      const apart = (one, other) => ((one - other + 3 * Math.PI) % whole) - Math.PI; // from -π to π
+      const reach = angle => faces.reduce((least, face) => {
+        const aside = apart(angle, face[0]);
+        return Math.abs(aside) <= face[1] ? Math.min(least, face[2] / Math.cos(aside)) : least;
+      }, Infinity);
+      // Corners lie at the ends of faces, where two of them meet, and along arcs.
+      const angles = Array.from({length: 16}, (none, n) => (n * whole) / 16);
+      for (const [one, half, far] of faces) {
+        angles.push(one - half, one + half);
+        for (const [other, , further] of faces)
+          if (other > one)
+            angles.push(Math.atan2(further * Math.cos(one) - far * Math.cos(other), far * Math.sin(other) - further * Math.sin(one)),
+                        Math.atan2(far * Math.cos(other) - further * Math.cos(one), further * Math.sin(one) - far * Math.sin(other)));
+      }
+      const sorted = angles.map(angle => (angle + 2 * whole) % whole).sort((one, other) => one - other);
+      sorted.forEach((from, n) => {
+        const to = n + 1 < sorted.length ? sorted[n + 1] : sorted[0] + whole;
+        if (to - from < 1e-5)
+          return;
+        const inside = (to - from) * 1e-3;
+        corners.push(x, y, -(k + 1));
+        for (const [angle, within] of [[from, from + inside], [to, to - inside]]) {
+          const length = reach(within);
+          const far = length === Infinity ? radius : length;
+          corners.push(x + far * Math.cos(angle), y + far * Math.sin(angle), k + 1);
+        }
+      });
+    });
+    return {corners: new Float32Array(corners), nFaces: nFaces / 2};
   };
-  const ofPlaces = [gl.RGBA16UI, gl.RGBA_INTEGER, gl.UNSIGNED_SHORT];
-  const ofDirections = [gl.RGBA8_SNORM, gl.RGBA, gl.BYTE];
-  const ofTones = [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE];
-  const shapes = (place, along) => {
-    const made = {n: place.length / 4, textures: [0, 1, 2].map(() => gl.createTexture())};
-    fill(made.textures[0], place, ofPlaces);
-    fill(made.textures[2], along, ofDirections);
+
+  const columns = 2048; // of a texture
+  const shapes = (n, ...attributes) => {
+    const made = {n, tones: gl.createTexture(), parts: gl.createVertexArray()};
+    gl.bindVertexArray(made.parts);
+    for (const [values, place, size, type, stride, offset] of attributes) {
+      if (values) {
+        gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+        gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+      }
+      gl.enableVertexAttribArray(place);
+      gl.vertexAttribPointer(place, size, type, type !== gl.FLOAT, stride, offset);
+    }
     return made;
   };
-  const drawnGrains = shapes(grains.place, new Int8Array(0));
-  const drawnCracks = shapes(cracks.place, cracks.normal);
-  const drawnFlaws = shapes(flaws.place, flaws.along);
+  const points = (place, along) =>
+    shapes(place.length / 4, [place, 0, 4, gl.UNSIGNED_SHORT, 8, 0], ...(along ? [[along, 1, 4, gl.BYTE, 4, 0]] : []));
+  const mostWithFaces = 50000; // triangles of more take long to make
+  const fans = !inSpace && nGrains <= mostWithFaces ? facets() : null;
+  const drawnGrains = fans ? shapes(fans.corners.length / 3, [fans.corners, 0, 2, gl.FLOAT, 12, 0], [null, 1, 1, gl.FLOAT, 12, 8]) : points(grains.place);
+  const drawnCracks = points(cracks.place, cracks.normal);
+  const drawnFlaws = points(flaws.place, flaws.along);
 
   // Colours.
   const rgb = text => [1, 3, 5].map(k => parseInt(text.slice(k, k + 2), 16));
@@ -183,7 +248,8 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const pieceTones = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"].map(rgb);
   const movedBy = k => (Math.hypot(grains.moved[3 * k], grains.moved[3 * k + 1], grains.moved[3 * k + 2]) * data.grains.most_moved) / 32767; // [mm]
   // Single grains that flew off would leave one colour for all others.
-  const mostMoved = Float32Array.from({length: nGrains}, (none, k) => movedBy(k)).sort()[Math.floor(0.98 * (nGrains - 1))] || 1;
+  let mostMoved = 0;
+  const typicalMotion = () => (mostMoved ||= Float32Array.from({length: nGrains}, (none, k) => movedBy(k)).sort()[Math.floor(0.98 * (nGrains - 1))] || 1);
   const sizes = new Map();
   for (const piece of grains.fragment)
     sizes.set(piece, (sizes.get(piece) || 0) + 1);
@@ -197,17 +263,21 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       const piece = grains.fragment[k];
       return piece === 0 ? plain : sizes.get(piece) === 1 ? [240, 226, 150] : pieceTones[piece % pieceTones.length];
     },
-    displacement: k => onRamp(movedBy(k) / mostMoved),
+    displacement: k => onRamp(movedBy(k) / typicalMotion()),
   };
   const crackColours = {
     kind: k => kindTones[cracks.normal[4 * k + 3]],
     strain: k => onRamp(cracks.row[k] / (data.rows.length - 1)),
   };
-  const colourAll = (shape, colourOf) => {
-    const tones = new Uint8Array(4 * shape.n);
-    for (let k = 0; k < shape.n; ++k)
-      [tones[4 * k], tones[4 * k + 1], tones[4 * k + 2]] = colourOf(k);
-    fill(shape.textures[1], tones, ofTones);
+  const colourAll = (shape, n, colourOf) => {
+    const rows = Math.max(1, Math.ceil(n / columns));
+    const tones = new Uint8Array(4 * columns * rows);
+    for (let k = 0; k < n; ++k)
+      tones.set(colourOf(k), 4 * k);
+    gl.bindTexture(gl.TEXTURE_2D, shape.tones);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, columns, rows, 0, gl.RGBA, gl.UNSIGNED_BYTE, tones);
   };
 
   // What the reader set, kept while the figure is drawn anew.
@@ -255,7 +325,10 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const paint = picking => {
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     const size = unit();
-    gl.viewport(0, 0, canvas.width, canvas.height);
+    // A point is left out where its middle is: the picture begins and ends one shape beyond the canvas.
+    const pixels = canvas.width / width, shape = Math.max(rim, data.size / data.span);
+    const beyond = Math.ceil(shape * size) + 4;
+    gl.viewport(-beyond * pixels, -beyond * pixels, canvas.width + 2 * beyond * pixels, canvas.height + 2 * beyond * pixels);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     (inSpace ? gl.enable : gl.disable).call(gl, gl.DEPTH_TEST);
@@ -268,9 +341,9 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       gl.useProgram(one.made);
       gl.uniformMatrix3fv(one.at.turn, true, axes.flat());
       gl.uniform3fv(one.at.middle, middle);
-      gl.uniform2f(one.at.zoom, (2 * size) / width, (2 * size) / height);
-      gl.uniform2f(one.at.pan, (2 * set.pan[0]) / width, (2 * set.pan[1]) / height);
-      gl.uniform2f(one.at.pixel, 2 / width, 2 / height);
+      gl.uniform2f(one.at.zoom, size / (width / 2 + beyond), size / (height / 2 + beyond));
+      gl.uniform2f(one.at.pan, set.pan[0] / (width / 2 + beyond), set.pan[1] / (height / 2 + beyond));
+      gl.uniform1f(one.at.pixels, size * pixels);
       gl.uniform4fv(one.at.cut, [...[0, 1, 2].map(c => (c === axis ? outwards : 0)), outwards ? margin : 1]);
       gl.uniform1f(one.at.extent, extent);
       gl.uniform1f(one.at.depth, 0.99 / reach);
@@ -278,21 +351,17 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       gl.uniform1ui(one.at.first, first);
       gl.uniform1ui(one.at.chosen, set.chosen);
       gl.uniform1i(one.at.picking, picking);
-      gl.uniform1i(one.at.space, inSpace);
-      ["places", "tones", "directions"].forEach((name, k) => {
-        gl.activeTexture(gl.TEXTURE0 + k);
-        gl.bindTexture(gl.TEXTURE_2D, shape.textures[k]);
-        gl.uniform1i(one.at[name], k);
-      });
-      gl.drawArrays(gl.TRIANGLES, 0, 6 * n);
+      gl.bindTexture(gl.TEXTURE_2D, shape.tones);
+      gl.bindVertexArray(shape.parts);
+      gl.drawArrays(one === ofFacets ? gl.TRIANGLES : gl.POINTS, 0, n);
     };
     if (set.grains !== "hidden")
-      show(ofGrains, drawnGrains, nGrains, 0, 0, rim, 0);
+      show(fans ? ofFacets : ofPoints, drawnGrains, drawnGrains.n, 0, 0, rim, 0);
     if (!picking)
-      show(ofCracks, drawnFlaws, pieces.length, shares * shares, 2, 1, 0);
+      show(ofPoints, drawnFlaws, drawnFlaws.n, 0, 3, 2 * rim, 0);
     // Those at the cut stand out of it.
     if (set.cracks !== "hidden")
-      show(ofCracks, drawnCracks, nBroken(), nGrains, inSpace ? 0 : 1, data.size / data.span, 1.5 * rim);
+      show(ofPoints, drawnCracks, nBroken(), nGrains, inSpace ? 1 : 2, data.size / data.span, 1.5 * rim);
   };
 
   // The picture of numbers, of the whole canvas: 0 where there is nothing.
@@ -394,7 +463,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     } else if (set.cracks === "strain")
       bar(`cracks: ${digits(data.rows[0][0])}`, `${digits(data.rows.at(-1)[0])} ${data.strain}`);
     if (set.grains === "displacement")
-      bar("grains: 0", `${digits(mostMoved)} mm, at the end`);
+      bar("grains: 0", `${digits(typicalMotion())} mm, at the end`);
     else if (set.grains === "fragment") {
       chip(css(plain), "largest piece");
       chip(css([240, 226, 150]), "single grains");
@@ -415,9 +484,9 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   };
   const colour = () => {
     if (set.grains !== "hidden")
-      colourAll(drawnGrains, grainColours[set.grains]);
+      colourAll(drawnGrains, nGrains, grainColours[set.grains]);
     if (set.cracks !== "hidden")
-      colourAll(drawnCracks, crackColours[set.cracks]);
+      colourAll(drawnCracks, nCracks, crackColours[set.cracks]);
     describeKey();
   };
 
@@ -463,7 +532,9 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   };
   const enlarge = factor => {
     const before = set.zoom;
-    set.zoom = Math.min(200, Math.max(0.5, set.zoom * factor));
+    // No shape is larger than the largest point.
+    const most = (set.zoom / unit()) * Math.min(1024, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]) / (devicePixelRatio || 1) / 2.2;
+    set.zoom = Math.min(most / Math.max(rim, data.size / data.span), Math.max(0.5, set.zoom * factor));
     set.pan = set.pan.map(value => (value * set.zoom) / before);
     draw();
   };
@@ -584,14 +655,15 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     "; Ctrl and the wheel enlarge; click a grain or a crack for its numbers. Grains lie where they were when the loading began, cracks where they broke." +
     (data.grains.every > 1 ? ` One of ${data.grains.every} grains is shown.` : "") + (data.cracks.every > 1 ? ` One of ${data.cracks.every} cracks is shown.` : ""));
 
-  colourAll(drawnFlaws, () => (isDark ? [230, 233, 236] : [27, 31, 36]));
+  colourAll(drawnFlaws, pieces.length, () => (isDark ? [230, 233, 236] : [27, 31, 36]));
   colour();
   // As wide as there is room for, as high as the specimen asks for.
   canvas.style.aspectRatio = `${Math.max(0.6, Math.min(2, (high[0] + 2 * rim) / (high[inSpace ? 2 : 1] + 2 * rim)))}`;
   const watch = new ResizeObserver(draw);
   watch.observe(canvas);
   draw();
-  gl.finish();
+  if (fans)
+    canvas.dataset.faces = fans.nFaces;
   canvas.dataset.firstFrame = Math.round(performance.now() - begun); // [ms]
   const lose = () => figure.printed();
   canvas.addEventListener("webglcontextlost", lose);

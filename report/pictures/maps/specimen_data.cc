@@ -178,8 +178,12 @@ std::string specimen_data(const FinishedTest& test)
                    [](const Crack& one, const Crack& other) { return one.step < other.step; });
   const Cube cube = cube_around(record, grains);
   double radius = std::numeric_limits<double>::min();
+  double mean_radius = 0.0;
   for (const GrainPicture& grain : grains)
-    radius = std::max(radius, grain.radius);
+    {
+      radius = std::max(radius, grain.radius);
+      mean_radius += grain.radius / double(grains.size());
+    }
   double size = std::numeric_limits<double>::min();
   for (const Crack& crack : cracks)
     size = std::max(size, crack.size);
@@ -191,6 +195,7 @@ std::string specimen_data(const FinishedTest& test)
                      {"span", number(cube.span / milli)},
                      {"radius", number(radius / milli)},
                      {"size", number(size / milli)},
+                     {"gap", number(record.specimen.installation_gap_ratio * mean_radius / milli)},
                      {"rows", rows},
                      {"grains", grain_data(grains, cube, radius)},
                      {"flaws", flaw_data(test.appearance.flaws)},
