@@ -287,7 +287,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       highest = k;
   });
   const set = (figure.kept ||= {
-    row: data.rows.length - 1,
+    row: inSpace ? highest : data.rows.length - 1, // at the end of a test, cracks hide a body in space
     azimuth: inSpace ? -0.45 : 0,
     elevation: inSpace ? 0.3 : Math.PI / 2,
     zoom: 1,
@@ -359,9 +359,9 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       show(fans ? ofFacets : ofPoints, drawnGrains, drawnGrains.n, 0, 0, rim, 0);
     if (!picking)
       show(ofPoints, drawnFlaws, drawnFlaws.n, 0, 3, 2 * rim, 0);
-    // Those at the cut stand out of it.
+    // Those at the cut are seen.
     if (set.cracks !== "hidden")
-      show(ofPoints, drawnCracks, nBroken(), nGrains, inSpace ? 1 : 2, data.size / data.span, 1.5 * rim);
+      show(ofPoints, drawnCracks, nBroken(), nGrains, inSpace ? 1 : 2, data.size / data.span, 0.5 * rim);
   };
 
   // The picture of numbers, of the whole canvas: 0 where there is nothing.

@@ -74,6 +74,7 @@ addEventListener("load", async () => {
     claim("enlarge", picture.countSeen()[0] < all[0]);
     picture.dispatchEvent(new KeyboardEvent("keydown", {key: "0"}));
     claim("whole", picture.countSeen()[0] === all[0]);
+    said.push("faces " + picture.dataset.faces);
   } catch (error) {
     said.push("-" + error);
   }

@@ -433,19 +433,20 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   const auto said = [&](const std::optional<Reference>& reference, const std::string& problem) {
     const Verdict answer = verdict(compare(tests, reference), reference, problem);
     std::string text = answer.headline + "\n";
-    for (const auto& point : answer.points)
-      text += point + "\n";
+    for (const Tile& tile : answer.tiles)
+      text += fmt::format("{}: {}, n = {}; {}\n", tile.property, tile.value, tile.n, tile.notes);
     return text;
   };
   const auto holds = [](const std::string& text, const std::vector<std::string>& all_words) {
     for (const auto& words : all_words)
       EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
   };
-  holds(said(granite(120.0, 130.0), ""),
-        {"Yes, by the 1 property", "✓ In range: uniaxial compressive strength 126.0 ± 6.0 MPa, n = 3; experiment 125.0",
-         "+0.8 %", "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range",
-         "No range given: Young's modulus"});
-  holds(said(granite(127.0, 130.0), ""), {"Not in every respect: 1 of 1", "✗ Out of range",
+  holds(
+    said(granite(120.0, 130.0), ""),
+    {"Yes. Uniaxial compressive strength lies within the measured range (3 specimens). 1 without a range deviates by",
+     "uniaxial compressive strength: 126.0 ± 6.0 MPa, n = 3; experiment 125.0", "+0.8 %",
+     "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range", "Young's modulus"});
+  holds(said(granite(127.0, 130.0), ""), {"No. Uniaxial compressive strength is outside the measured range",
                                           "experiment 125.0 (127.0 to 130.0) MPa", "reaches into the range"});
   // All of the interval inside, or all of it outside: no such remark.
   EXPECT_EQ(said(granite(1.0, 500.0), "").find("reaches"), std::string::npos);
@@ -453,7 +454,7 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   // The unit belongs to the mean, not to the number of tests.
   Reference of_tests = granite(120.0, 130.0);
   of_tests.experiment.values["uniaxial_compressive_strength_MPa"].n = 6;
-  holds(said(of_tests, ""), {"experiment 125.0 MPa, n = 6 (120.0 to 130.0); +0.8 %"});
+  holds(said(of_tests, ""), {"experiment 125.0 MPa, n = 6 (120.0 to 130.0), +0.8 %"});
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
   // Fewer specimens have no such interval, which is said instead.
   tests.pop_back();
@@ -1279,8 +1280,9 @@ TEST(Report, OfACalibrationBeginsWithItsStatementAndHasThePairsBelow)
     return at;
   };
   const std::size_t first_line = place(
-    "Calibration: All targets were reached within 3 %. Comparison with the experiments: Yes, by the 3 properties");
-  place("In range: Young&apos;s modulus, initial 60.0");
+    "Calibration: All targets were reached within 3 %. Comparison with the experiments: Yes. Uniaxial compressive strength, Young&apos;s modulus "
+    "and Poisson&apos;s ratio lie within the measured ranges (3 specimens).");
+  place("Young&apos;s modulus, initial</span> <b><span class=\"mark\">✓</span> 60.0");
   place("Young&apos;s modulus is taken to be the initial one and Poisson&apos;s ratio the initial one");
   const std::size_t found = place("How the micro-parameters were found");
   EXPECT_LT(first_line, page.find("<figcaption>"));
@@ -1459,6 +1461,21 @@ TEST(Chart, OfCurvesHasTheirPoints)
   // 120 and 144 MPa at the same strain; 160 rows of the mean miss the corner by less than one of them, 1e-3 of 3e-3.
   EXPECT_NEAR(highest, 132.0, 1.0);
   EXPECT_EQ(n_thin, 2u);
+}
+
+// Axial strain goes to 3e-3; a piece that breaks off moves 20 times as far sideways.
+TEST(Chart, OfStressEndsItsAxisWhereTheAxialStrainEnds)
+{
+  std::vector<Series> all{{"rock", SeriesKind::specimens, {}, {compression(1)}, {}}};
+  const auto part = [&] { return nlohmann::json::parse(curve_pictures(all).at(0).pictures.at(0).live())["part"]; };
+  EXPECT_TRUE(part().is_null());
+  for (CurveSample& row : all[0].tests[0].record.curve)
+    row.gauge_lateral_strain = 0.06;
+  const auto limited = part();
+  ASSERT_EQ(limited.size(), 4u);
+  EXPECT_NEAR(limited[0], -3.0, 1e-3);
+  EXPECT_NEAR(limited[1], 3.06, 1e-3);
+  EXPECT_EQ(limited[2], 0.0);
 }
 
 TEST(CaptionOfCurves, NamesBandsWhereThereAreAny)
