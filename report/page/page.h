@@ -24,7 +24,7 @@ struct Tile
   std::string property = {};
   std::string value = {}; ///< with its unit
   std::string notes = {}; ///< of the experiment, and how sure the place in its range is
-  std::size_t n = 0; ///< specimens
+  std::size_t n = 0;      ///< specimens
   double mean = 0.0;
   double deviation = 0.0;
   std::optional<double> low = {}; ///< of the range; none without an experiment

@@ -436,7 +436,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     pen.strokeStyle = theme("--text");
     pen.lineWidth = 1.5;
     pen.beginPath();
-    data.rows.forEach((row, k) => pen.lineTo(...at(k)));
+    data.rows.forEach((row, k) => row[1] === null || pen.lineTo(...at(k)));
     pen.stroke();
     pen.fillStyle = theme("--bad");
     pen.beginPath();
