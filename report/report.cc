@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
 #include <utility>
 
@@ -88,18 +89,43 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
   return findings;
 }
 
-/// The first picture of the sections: it stands beside the verdict, on the first screen, instead of in its own place.
-std::vector<PagePicture> lead_of(std::vector<PageSection>& sections)
+/// The picture that ranks highest, the first of its rank, taken out of its place; none where all rank 0.
+std::vector<PagePicture> taken_out(std::vector<PageSection>& sections, std::size_t (*const rank)(const Picture&))
 {
+  std::vector<PagePicture>* where = nullptr;
+  std::size_t which = 0, highest = 0;
   for (PageSection& section : sections)
     for (PageBlock& block : section.blocks)
-      if (block.folded.empty() && !block.pictures.empty())
-        {
-          std::vector<PagePicture> lead{std::move(block.pictures.front())};
-          block.pictures.erase(block.pictures.begin());
-          return lead;
-        }
-  return {};
+      for (std::size_t k = 0; k < block.pictures.size(); ++k)
+        if (const std::size_t its_rank = rank(block.pictures[k].picture); its_rank > highest)
+          {
+            where = &block.pictures;
+            which = k;
+            highest = its_rank;
+          }
+  if (where == nullptr)
+    return {};
+  std::vector<PagePicture> taken{std::move((*where)[which])};
+  where->erase(where->begin() + std::ptrdiff_t(which));
+  return taken;
+}
+
+/// Rank of a specimen that the viewer shows: by what there is to see.
+std::size_t rank_of_specimen(const Picture& picture) { return picture.story.size(); }
+
+/// Rank of the picture beside the specimen: the strengths with one fit, else any curve.
+std::size_t rank_of_answer(const Picture& picture)
+{
+  return picture.name == "envelopes" ? 2 : picture.story.empty() ? 1 : 0;
+}
+
+/// Rank of the curves below it: those of all confinements, else those without confinement.
+std::size_t rank_of_curves(const Picture& picture)
+{
+  return picture.name.starts_with("compression_")        ? 3
+         : picture.name == "uniaxial_compression_stress" ? 2
+         : picture.name.ends_with("_stress")             ? 1
+                                                         : 0;
 }
 
 /// Name of a rock in a title, from its name in a reference.
@@ -130,13 +156,13 @@ Page page_of(const Findings& findings, PictureBook& book)
   auto overview = findings.one_folder ? overview_picture(findings.all.front()) : std::vector<Picture>();
   for (Picture& picture : overview)
     picture.caption = findings.titled(picture.caption, findings.all.front());
-  if (findings.has_many()) // the key of many curves would push the tables off the first screen
-    book.keep_as_files(overview);
-  else
+  book.keep_as_files(overview);
+  if (!findings.has_many()) // the key of many curves would push the tables off the first screen
     {
       std::vector<PagePicture>& lead = page.sections.front().blocks.front().lead;
-      lead = lead_of(page.sections);
-      append(lead, book.keep(overview));
+      lead = taken_out(page.sections, rank_of_specimen);
+      append(lead, taken_out(page.sections, rank_of_answer));
+      append(lead, taken_out(page.sections, rank_of_curves));
     }
   // After the lead was chosen: how the parameters were found does not tell whether the model is the rock.
   if (findings.calibration)

@@ -1,5 +1,7 @@
 #include "report/chart/page_writer.h"
 
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -84,6 +86,15 @@ std::string text(const Json& data)
   for (std::size_t at = 0; (at = quoted.find('<', at)) != std::string::npos;)
     quoted.replace(at, 1, "\\u003c");
   return quoted;
+}
+
+std::string base64(const std::string& bytes)
+{
+  using namespace boost::archive::iterators;
+  using Encoder = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
+  std::string text(Encoder(bytes.begin()), Encoder(bytes.end()));
+  text.append((3 - bytes.size() % 3) % 3, '=');
+  return text;
 }
 
 Json number(const double value, const int digits)

@@ -16,6 +16,9 @@ std::string chart_data(const Chart& chart);
 /// Text of the data in which no tag can begin, so that it may stand in a page. Bytes that are not UTF-8 are replaced.
 std::string text(const nlohmann::ordered_json& data);
 
+/// Bytes as text of letters, digits, + and /.
+std::string base64(const std::string& bytes);
+
 /// Number with so many digits; null if the value is none.
 nlohmann::ordered_json number(double value, int digits = 5);
 } // namespace feldspar::live

@@ -2,10 +2,9 @@
 
 #include "base/readable_file.h"
 #include "base/whole_file.h"
+#include "report/chart/page_writer.h"
 #include "results/folder/result_folder.h"
 
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
@@ -17,24 +16,16 @@ namespace feldspar
 {
 extern const std::string_view page_template;   // report/page/page.html
 extern const std::string_view figure_template; // report/page/figure.html
-extern const std::string_view page_script;     // third_party/*/*.js and report/page/page.js
+extern const std::string_view page_script;     // third_party/*/*.js, report/page/viewer.js and page.js
 extern const std::string_view script_sha_256;  // of it, hexadecimal
 
 namespace
 {
 using kainjow::mustache::data;
+using live::base64;
 
 constexpr std::size_t most_bytes = 9'900'000; // of a page of 10 MB; sentences in place of pictures need a little
 constexpr int wide_picture = 900;             // from here on a picture takes the width of the page [px]
-
-std::string base64(const std::string& bytes)
-{
-  using namespace boost::archive::iterators;
-  using Encoder = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
-  std::string text(Encoder(bytes.begin()), Encoder(bytes.end()));
-  text.append((3 - bytes.size() % 3) % 3, '=');
-  return text;
-}
 
 /// Hash by which a policy names the one script that may run: no other does, whatever text comes into the page.
 std::string hash_of_script()
@@ -209,6 +200,35 @@ private:
   std::size_t n_pdf_bytes = 0;
 };
 
+data describe(const Tile& tile)
+{
+  data result = data::type::object;
+  result.set("property", tile.property);
+  result.set("value", tile.value);
+  set_unless_empty(result, "notes", tile.notes);
+  result.set("n", fmt::format("{}", tile.n));
+  set_unless_empty(result, "class", !tile.in_range ? "" : *tile.in_range ? "good" : "bad");
+  set_unless_empty(result, "mark", !tile.in_range ? "" : *tile.in_range ? "✓" : "✗");
+  result.set("has_bar", data(tile.low && tile.high));
+  if (!tile.low || !tile.high)
+    return result;
+  // The bar holds the range and the deviations, with room at both ends.
+  const double low = std::min(*tile.low, tile.mean - tile.deviation);
+  const double width = std::max(*tile.high, tile.mean + tile.deviation) - low;
+  const auto place = [&](const double value) {
+    return fmt::format("{:.1f}%", width > 0.0 ? 8.0 + 84.0 * (value - low) / width : 50.0);
+  };
+  const auto length = [&](const double value) {
+    return fmt::format("{:.1f}%", width > 0.0 ? 84.0 * value / width : 0.0);
+  };
+  result.set("range_at", place(*tile.low));
+  result.set("range_width", length(*tile.high - *tile.low));
+  result.set("deviation_at", place(tile.mean - tile.deviation));
+  result.set("deviation_width", length(2.0 * tile.deviation));
+  result.set("mean_at", place(tile.mean));
+  return result;
+}
+
 data describe(const PageBlock& block, PictureShelf& shelf)
 {
   data tables = data::type::list;
@@ -223,6 +243,11 @@ data describe(const PageBlock& block, PictureShelf& shelf)
   set_unless_empty(result, "chip", block.chip);
   set_unless_empty(result, "headline", block.headline);
   result.set("paragraphs", list(block.paragraphs));
+  data tiles = data::type::list;
+  for (const Tile& tile : block.tiles)
+    tiles << describe(tile);
+  result.set("has_tiles", data(!block.tiles.empty()));
+  result.set("tiles", tiles);
   result.set("has_points", data(!block.points.empty()));
   result.set("points", list(block.points));
   result.set("has_warnings", data(!block.warnings.empty()));

@@ -3,7 +3,9 @@
 #include "report/page/table.h"
 #include "report/pictures/picture.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,20 @@ struct PagePicture
   std::string problem;
 };
 
+/// A property as a tile, its mean and deviation on a bar with the range of the experiments.
+struct Tile
+{
+  std::string property = {};
+  std::string value = {}; ///< with its unit
+  std::string notes = {}; ///< of the experiment, and how sure the place in its range is
+  std::size_t n = 0;      ///< specimens
+  double mean = 0.0;
+  double deviation = 0.0;
+  std::optional<double> low = {}; ///< of the range; none without an experiment
+  std::optional<double> high = {};
+  std::optional<bool> in_range = {};
+};
+
 /// A piece of a section; what is empty is left out.
 struct PageBlock
 {
@@ -24,13 +40,14 @@ struct PageBlock
   std::string chip; ///< colour beside the subheading
   std::string headline;
   std::vector<std::string> paragraphs;
+  std::vector<Tile> tiles;
   std::vector<std::string> points;
   std::vector<std::string> warnings;
   std::vector<Table> tables;
   std::vector<Table> tables_as_files; ///< beside the page alone
   std::vector<PagePicture> pictures;
   std::vector<PagePicture>
-    lead; ///< the first beside the words above, where the screen is wide enough; others below them
+    lead; ///< the first left of headline and paragraphs, where the screen is wide enough; others below them
 };
 
 struct PageSection
@@ -49,7 +66,7 @@ struct Page
 };
 
 /// Writes the page as one file that needs no other and no network. Pictures stand in it as data, as far as the text leaves
-/// room for them in 10 MB; the others are named instead. A script shows curves and cracks so that they respond to the
-/// pointer. `figures` is where they were drawn, beside the page.
+/// room for them in 10 MB; the others are named instead. A script shows curves and specimens so that they respond to
+/// the pointer. `figures` is where they were drawn, beside the page.
 void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures);
 } // namespace feldspar

@@ -1,5 +1,5 @@
-// Shows in the place of pictures what answers to the pointer: curves by Chart.js, and the cracks of a test one after the
-// other. Without it, and on paper, the page has its pictures. All texts go through the canvas or textContent.
+// Shows in the place of pictures what answers to the pointer: curves by Chart.js, and the specimen of a test by viewer.js.
+// Without it, and on paper, the page has its pictures. All texts go through the canvas or textContent.
 "use strict";
 (() => {
   // As gnuplot counts them.
@@ -182,108 +182,6 @@
     return () => plot.destroy();
   }
 
-  function cracks(figure, data) {
-    const box = element("div", figure.stage, {className: "story"});
-    const canvas = element("canvas", box);
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", figure.alternative);
-    const output = element("output", box);
-    const slider = element("input", box, {type: "range", min: 0, max: data.rows.length - 1, step: 1});
-    slider.setAttribute("aria-label", "How far the test has gone");
-    let highest = 0;
-    data.rows.forEach((row, k) => {
-      if (row[1] > data.rows[highest][1])
-        highest = k;
-    });
-    // Of a test that cracks only after its peak the peak would show nothing.
-    const isIntact = data.rows[highest][2] + data.rows[highest][3] === 0;
-    slider.value = figure.kept ?? (isIntact ? data.rows.length - 1 : highest);
-
-    let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-    for (const grain of data.grains)
-      for (const c of [0, 1]) {
-        low[c] = Math.min(low[c], grain[c] - grain[2]);
-        high[c] = Math.max(high[c], grain[c] + grain[2]);
-      }
-    const pen = canvas.getContext("2d");
-    const draw = () => {
-      const margin = 40;
-      const width = box.clientWidth;
-      const scale = Math.min((width - margin - 24) / (high[0] - low[0]), (Math.min(0.75 * innerHeight, 720) - margin) / (high[1] - low[1]));
-      const height = scale * (high[1] - low[1]) + margin + 6;
-      const pixels = devicePixelRatio || 1;
-      canvas.width = width * pixels;
-      canvas.height = height * pixels;
-      canvas.style.height = height + "px";
-      const left = margin + (width - margin - scale * (high[0] - low[0])) / 2;
-      const x = value => left + scale * (value - low[0]);
-      const y = value => height - margin - scale * (value - low[1]);
-      pen.setTransform(pixels, 0, 0, pixels, 0, 0);
-      pen.clearRect(0, 0, width, height);
-      const plain = theme("--line");
-      for (const grain of data.grains) {
-        pen.fillStyle = grain[3] || plain; // of its clump or mineral grain
-        pen.globalAlpha = grain[3] && dark.matches ? 0.4 : 1;
-        pen.beginPath();
-        pen.arc(x(grain[0]), y(grain[1]), scale * grain[2], 0, 2 * Math.PI);
-        pen.fill();
-      }
-      pen.globalAlpha = 1;
-      pen.fillStyle = theme("--text");
-      pen.strokeStyle = theme("--text");
-      for (const flaw of data.flaws) {
-        pen.lineWidth = flaw.open ? 1.2 : 3;
-        pen.beginPath();
-        for (const [u, v] of flaw.outline)
-          pen.lineTo(x(u), y(v));
-        pen.stroke();
-      }
-      pen.lineWidth = 1;
-      pen.font = "12px system-ui, sans-serif";
-      const step = [1, 2, 5, 10, 20, 50, 100, 200].find(one => (high[1] - low[1]) / one <= 8) || 500;
-      pen.textAlign = "center";
-      for (let v = step * Math.ceil(low[0] / step); v <= high[0]; v += step)
-        pen.fillText(v, x(v), height - margin + 16);
-      pen.fillText(data.across, x((low[0] + high[0]) / 2), height - margin + 32);
-      pen.textAlign = "right";
-      for (let v = step * Math.ceil(low[1] / step); v <= high[1]; v += step)
-        pen.fillText(v, left - 6, y(v) + 4);
-      pen.save();
-      pen.translate(left - 32, y((low[1] + high[1]) / 2));
-      pen.rotate(-Math.PI / 2);
-      pen.textAlign = "center";
-      pen.fillText(data.up, 0, 0);
-      pen.restore();
-      const now = Number(slider.value);
-      pen.lineWidth = Math.min(3, Math.max(1.2, 0.25 * scale)); // [px], of 0.25 mm
-      for (const kind of [0, 1]) {
-        pen.strokeStyle = kind ? "#0072B2" : "#D55E00";
-        if (kind && dark.matches)
-          pen.strokeStyle = "#4aa8e0";
-        pen.beginPath();
-        for (const crack of data.cracks)
-          if (crack[4] === kind && crack[5] <= now) {
-            pen.moveTo(x(crack[0] - crack[2] / 2), y(crack[1] - crack[3] / 2));
-            pen.lineTo(x(crack[0] + crack[2] / 2), y(crack[1] + crack[3] / 2));
-          }
-        pen.stroke();
-      }
-      const row = data.rows[now];
-      output.textContent =
-        `${data.strain}: ${digits(row[0])}; ${data.stress}: ${digits(row[1])}; broken segments: ` +
-        `${row[2]} in tension (orange), ${row[3]} in shear (blue)`;
-    };
-    slider.addEventListener("input", () => {
-      figure.kept = Number(slider.value);
-      draw();
-    });
-    const watch = new ResizeObserver(draw);
-    watch.observe(box);
-    draw();
-    figure.hint("", "Move the slider along the test. Grains lie where they were when the loading began, cracks where they broke.");
-    return () => watch.disconnect();
-  }
-
   for (const source of document.querySelectorAll("script.live-data")) {
     const frame = source.closest("figure");
     const image = frame.querySelector("img");
@@ -292,7 +190,7 @@
       stage: null,
       kept: undefined,
     };
-    const bar = document.createElement("div");
+    const bar = (figure.bar = document.createElement("div"));
     bar.className = "bar";
     figure.buttons = all => {
       for (const [text, action] of all)
@@ -313,7 +211,14 @@
       figure.stage.className = "stage";
       frame.insertBefore(figure.stage, frame.firstChild);
       bar.textContent = "";
-      end = data.what === "cracks" ? cracks(figure, data) : chart(figure, data);
+      try {
+        end = data.what === "specimen" ? specimenView(figure, data, {element, theme, dark, digits}) : chart(figure, data);
+      } catch {
+        // Without WebGL: the picture stays.
+        figure.stage.remove();
+        frame.classList.remove("live");
+        return;
+      }
       if (image)
         figure.buttons([["as printed", stop]]);
       figure.stage.appendChild(bar);
@@ -329,6 +234,7 @@
         begin();
       };
     };
+    figure.printed = stop;
     drawn.push(() => {
       if (end) {
         end();

@@ -326,8 +326,6 @@ Pictures envelope_pictures(const SeriesAmong& of)
 
 Pictures combined_envelope_picture(const AllSeries& of)
 {
-  if (of.all.size() < 2)
-    return {};
   EnvelopePlot plotted;
   for (std::size_t n = 0; n < of.all.size(); ++n)
     {
@@ -346,9 +344,9 @@ Pictures combined_envelope_picture(const AllSeries& of)
                              .dashes = dashes(n)});
   if (of.reference)
     plotted.add_fit_of(of.reference->experiment);
-  return {envelope_picture("envelopes", "Strength of all series",
-                           "Strength against confinement of all series, each with its Hoek–Brown envelope.",
-                           plotted.chart())};
+  return {envelope_picture(
+    "envelopes", of.all.size() > 1 ? "Strength of all series" : "Strength against confinement, with one envelope",
+    "Strength against confinement of each series with its Hoek–Brown envelope.", plotted.chart())};
 }
 
 Pictures residual_picture(const SeriesAmong& of)

@@ -31,11 +31,10 @@ inline constexpr std::array curve_figures{stress_picture, crack_count_picture, e
 using FigureOfTest = Pictures(const FinishedTest&, const std::string&);
 FigureOfTest crack_map;      ///< at crack initiation, peak and end; of finite elements a damage_map()
 FigureOfTest damage_map;     ///< broken segments at each point of a sample
-FigureOfTest space_picture;  ///< of a test in space, cracks as discs, the fragments cut open
 FigureOfTest fragment_map;   ///< grains at the end, coloured by the size of their fragment
 FigureOfTest sample_picture; ///< cells of finite elements, displaced, by the share of their segments that broke
 FigureOfTest rve_picture;    ///< grains and cracks of a few representative volumes of a sample
-inline constexpr std::array crack_figures{crack_map, space_picture};
+inline constexpr std::array crack_figures{crack_map};
 inline constexpr std::array fragment_figures{fragment_map};
 inline constexpr std::array sample_figures{sample_picture, rve_picture};
 
@@ -52,10 +51,12 @@ struct SeriesAmong
 using FigureOfSeries = Pictures(const SeriesAmong&);
 FigureOfSeries envelope_pictures;     ///< strengths over confinement, the whole range and near the uniaxial test
 FigureOfSeries mohr_picture;          ///< Mohr circles with the envelopes and the direct shear tests
+FigureOfSeries compression_curves;    ///< stress over axial strain at every confinement
 FigureOfSeries residual_picture;      ///< strength of each point less that of each envelope
 FigureOfSeries rose_picture;          ///< directions of the crack normals, weighted by length
 FigureOfSeries fragment_size_picture; ///< share of the volume in fragments smaller than a size
 inline constexpr std::array strength_figures{envelope_pictures, mohr_picture};
+inline constexpr std::array confinement_figures{compression_curves};
 inline constexpr std::array residual_figures{residual_picture};
 inline constexpr std::array direction_figures{rose_picture};
 inline constexpr std::array fragment_size_figures{fragment_size_picture};

@@ -1,4 +1,3 @@
-#include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
 #include "report/pictures/rves.h"
 
@@ -9,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <string_view>
@@ -25,7 +23,7 @@ using Json = nlohmann::ordered_json; // JSON is Python, as far as it goes here
 
 constexpr std::array fragment_colours{orange, sky, green, purple, vermillion, blue};
 
-/// Around the grains as they stood at the start [m].
+/// Box of a picture [m].
 struct Box
 {
   std::array<double, 3> low, high;
@@ -35,18 +33,6 @@ struct Box
   {
     low.fill(-half_width);
     high.fill(half_width);
-  }
-
-  explicit Box(const std::vector<GrainPicture>& grains)
-  {
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    for (const auto& grain : grains)
-      for (std::size_t c = 0; c < 3; ++c)
-        {
-          low[c] = std::min(low[c], grain.start[c] - grain.radius);
-          high[c] = std::max(high[c], grain.start[c] + grain.radius);
-        }
   }
 
   /// Returns whether a point is shown: with room for grains that bulge, not for those that flew away.
@@ -70,21 +56,19 @@ struct Box
   }
 };
 
-/// Discs of cracks up to a step, and how many there are of either kind.
+/// Discs of cracks, and how many there are of either kind.
 struct Discs
 {
   std::string rows;
   Json legend;
 };
 
-Discs discs_of(const std::vector<Crack>& cracks, const Box& box, const std::uint64_t last_step)
+Discs discs_of(const std::vector<Crack>& cracks, const Box& box)
 {
   std::string rows;
   std::array<std::size_t, 2> n{};
   for (const auto& crack : cracks)
     {
-      if (crack.step > last_step)
-        continue;
       const bool is_shear = crack.kind == CrackKind::shear;
       ++n[is_shear];
       if (!box.shows(crack.centroid))
@@ -98,16 +82,6 @@ Discs discs_of(const std::vector<Crack>& cracks, const Box& box, const std::uint
                      is_shear ? shear_colour : tension_colour);
     }
   return {rows, {{fmt::format("tension: {}", n[0]), tension_colour}, {fmt::format("shear: {}", n[1]), shear_colour}}};
-}
-
-Json crack_panel(const TestRecord& record, const Box& box, const std::string& title, const std::uint64_t last_step)
-{
-  const Discs discs = discs_of(record.cracks, box, last_step);
-  return {{"title", title},
-          {"box", box.millimetres()},
-          {"spheres", ""},
-          {"discs", discs.rows},
-          {"legend", discs.legend}};
 }
 
 /// Number of grains of each fragment.
@@ -138,50 +112,7 @@ std::string spheres_behind(const std::vector<GrainPicture>& grains, const Box& b
   return rows;
 }
 
-Json fragment_panel(const std::vector<GrainPicture>& grains, const Box& box)
-{
-  const auto n_grains = numbers_of_grains(grains);
-  const auto n_single = std::count_if(n_grains.begin(), n_grains.end(),
-                                      [](const auto& entry) { return entry.first > 0 && entry.second == 1; });
-  return {{"title", "grains at the end, cut open"},
-          {"box", box.millimetres()},
-          {"spheres", spheres_behind(grains, box)},
-          {"discs", ""},
-          {"legend",
-           {{"grey: largest piece", black},
-            {fmt::format("pale: {} single grains; coloured: {} fragments", n_single,
-                         std::ptrdiff_t(n_grains.size()) - 1 - n_single),
-             black}}}};
-}
 } // namespace
-
-Pictures space_picture(const FinishedTest& test, const std::string& title)
-{
-  const TestRecord& record = test.record;
-  const auto& grains = test.appearance.grains_at_end;
-  if (record.dimension() == 2 || grains.empty())
-    return {};
-  const Box box(grains);
-  Json panels = Json::array();
-  if (const auto peak = peak_row(record))
-    panels.push_back(crack_panel(record, box, "cracks at the peak", record.curve[*peak].step));
-  panels.push_back(crack_panel(record, box, "cracks at the end", std::numeric_limits<std::uint64_t>::max()));
-  panels.push_back(fragment_panel(grains, box));
-  return {
-    {.name = test.name + "_space",
-     .caption = fmt::format("{}, seed {}: every broken element as a disc, at the peak and at the end; the grains "
-                            "behind the mid-plane at the end, coloured by fragment. Seen from the front, a little "
-                            "from the right and from above",
-                            title, record.seed),
-     .alternative =
-       fmt::format("Cracks and fragments of {} (seed {}) in space: {} tension and {} shear cracks at the end.", title,
-                   record.seed, test.results.n_tension_cracks, test.results.n_shear_cracks),
-     .width = 450 * int(panels.size()),
-     .height = 900,
-     .raster = true,
-     .vector = false,
-     .scene = fmt::format("panels = {}\n{}", panels.dump(), space_scene)}};
-}
 
 Picture space_picture_of_rves(const std::vector<PointRve>& rves, const std::vector<std::string>& headings)
 {
@@ -203,7 +134,7 @@ Picture space_picture_of_rves(const std::vector<PointRve>& rves, const std::vect
           for (auto& crack : rve.cracks)
             crack.centroid[c] -= rve.position[c];
         }
-      const Discs discs = discs_of(rve.cracks, box, std::numeric_limits<std::uint64_t>::max());
+      const Discs discs = discs_of(rve.cracks, box);
       panels.push_back({{"title", headings[k]},
                         {"box", box.millimetres()},
                         {"spheres", spheres_behind(rve.grains, box)},

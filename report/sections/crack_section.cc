@@ -44,13 +44,18 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
           series.kind == SeriesKind::finite_elements
             ? "No crack map: there are no cracks, or no test with a peak, in this result folder."
             : "No crack map: the positions of the grains, or a test with a peak, are missing in this result folder.");
-      block.pictures = place(std::move(maps));
       const SeriesAmong among{findings.all, n, findings.envelopes[n], findings.reference};
-      append(block.pictures, place(pictures_of(direction_figures, among)));
-      append(block.pictures, place(std::move(fragments)));
+      block.pictures = place(pictures_of(direction_figures, among));
       append(block.pictures, place(pictures_of(fragment_size_figures, among)));
-      if (findings.is_in_full(n))
-        section.blocks.push_back(block);
+      PageBlock of_tests;
+      of_tests.folded = findings.titled("Cracks and fragments of each test", series);
+      of_tests.pictures = place(std::move(maps));
+      append(of_tests.pictures, place(std::move(fragments)));
+      if (!findings.is_in_full(n))
+        continue;
+      section.blocks.push_back(block);
+      if (!of_tests.pictures.empty())
+        section.blocks.push_back(of_tests);
     }
   PageBlock together;
   const std::vector<StrengthEnvelopes> envelopes = findings.pictured_envelopes();

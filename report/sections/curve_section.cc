@@ -16,19 +16,32 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"curves", "Curves", "Curves", {}};
   bool is_all_shown = true;
+  PageBlock stresses;
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    if (findings.is_in_full(n))
+      append(stresses.pictures,
+             book.keep(pictures_of(confinement_figures,
+                                   SeriesAmong{findings.all, n, findings.envelopes[n], findings.reference})));
+  std::vector<PageBlock> further;
   for (auto& group : curve_pictures(findings.pictured))
     if (group.on_page)
       {
         PageBlock block;
-        block.subheading = group.title;
+        block.folded = group.title + ": cracks and energies";
         block.pictures = book.keep(std::move(group.pictures));
-        section.blocks.push_back(block);
+        stresses.pictures.push_back(std::move(block.pictures.front()));
+        block.pictures.erase(block.pictures.begin());
+        if (!block.pictures.empty())
+          further.push_back(std::move(block));
       }
     else
       {
         is_all_shown = false;
         book.keep_as_files(std::move(group.pictures));
       }
+  if (!stresses.pictures.empty())
+    section.blocks.push_back(std::move(stresses));
+  append(section.blocks, std::move(further));
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     if (Table stages = stage_table(findings.all[n].tests); !stages.rows.empty())
       {

@@ -253,14 +253,16 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       if (n == 0 && findings.reference)
         if (const std::string printed = remark_on_printed(findings.reference->model); !printed.empty())
           block.paragraphs.push_back(printed);
-      block.paragraphs.push_back("Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
-                                 "has more points than parameters; q over p shows the part under compression.");
       const SeriesAmong among{findings.all, n, envelopes, findings.reference};
-      block.pictures = book.keep(pictures_of(strength_figures, among));
       if (!findings.has_several())
-        append(block.pictures, book.keep(of_all));
+        block.pictures = book.keep(of_all);
       section.blocks.push_back(block);
       PageBlock figures;
+      figures.folded = findings.titled("Every fitted form", findings.all[n]);
+      figures.pictures = book.keep(pictures_of(strength_figures, among));
+      figures.paragraphs.push_back(
+        "Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
+        "has more points than parameters; q over p shows the part under compression.");
       figures.tables.push_back(fit_table(envelopes, "envelopes" + findings.ending_of_files(n)));
       if (const auto& fit = envelopes.mohr_coulomb.fit)
         figures.paragraphs.push_back(text_of(*fit));

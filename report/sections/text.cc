@@ -49,15 +49,17 @@ std::string estimate(const Estimate& value, const double unit, const int decimal
   return text;
 }
 
-/// Two specimens have no scatter to speak of: both values are given, n = 2: 40.9 and 43.1.
+std::string two_values(const Statistics& over_seeds, const double unit, const int decimals)
+{
+  const double half_way = *over_seeds.standard_deviation / std::numbers::sqrt2; // between the two values
+  return fmt::format("{} and {}", number((over_seeds.mean - half_way) / unit, decimals),
+                     number((over_seeds.mean + half_way) / unit, decimals));
+}
+
 std::string mean_and_deviation(const Statistics& over_seeds, const double unit, const int decimals)
 {
-  if (over_seeds.n == 2 && over_seeds.standard_deviation)
-    {
-      const double half_way = *over_seeds.standard_deviation / std::numbers::sqrt2; // between the two values
-      return fmt::format("n = 2: {} and {}", number((over_seeds.mean - half_way) / unit, decimals),
-                         number((over_seeds.mean + half_way) / unit, decimals));
-    }
+  if (has_two_values(over_seeds))
+    return "n = 2: " + two_values(over_seeds, unit, decimals);
   std::string text = number(over_seeds.mean / unit, decimals);
   if (over_seeds.standard_deviation)
     text += fmt::format(" ± {}", number(*over_seeds.standard_deviation / unit, decimals));

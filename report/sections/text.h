@@ -18,6 +18,12 @@ std::string significant(double value, int figures);
 std::string sentence(std::string words);                                ///< with a capital letter and a full stop
 std::string number(const Figure& figure, double unit, int decimals);    ///< or none
 std::string estimate(const Estimate& value, double unit, int decimals); ///< 42.0 ± 1.5, half of the 95 % interval
+/// Two specimens have no scatter to speak of: both values are given, 40.9 and 43.1.
+inline bool has_two_values(const Statistics& over_seeds)
+{
+  return over_seeds.n == 2 && over_seeds.standard_deviation.has_value();
+}
+std::string two_values(const Statistics& over_seeds, double unit, int decimals);
 std::string mean_and_deviation(const Statistics& over_seeds, double unit, int decimals); ///< 42.0 ± 1.5, over the seeds
 std::string interval(const Statistics& over_seeds, double unit, int decimals);           ///< of the mean, 95 %; or none
 std::string signed_percent(double share); ///< +1.5 %, with a minus that is one

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "report/page/page.h"
 #include "report/sections/comparison.h"
 
 #include <optional>
@@ -12,7 +13,8 @@ namespace feldspar
 struct Verdict
 {
   std::string headline;
-  std::vector<std::string> points; ///< property by property
+  std::vector<Tile> tiles;         ///< property by property
+  std::vector<std::string> points; ///< properties without a result
 };
 
 /// `reason_for_no_reference`: why there is none although there should be one.

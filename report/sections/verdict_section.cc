@@ -106,13 +106,6 @@ PageSection verdict_section(const Findings& findings)
                                       [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
   const bool is_problem_below = !findings.reference_problem.empty() && n_models != 1;
   const SharedWarnings shared = shared_warnings(findings.all);
-  if (!findings.has_many() && !shared.of_all.empty())
-    {
-      PageBlock of_all;
-      of_all.subheading = "All models";
-      of_all.warnings = shared.of_all;
-      section.blocks.push_back(of_all);
-    }
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       if (findings.has_many() && findings.all[n].kind != SeriesKind::laboratory_curve)
@@ -133,26 +126,41 @@ PageSection verdict_section(const Findings& findings)
             block.paragraphs.push_back(
               fmt::format("Made on a sample of finite elements{}, and evaluated as tests on specimens of grains are.",
                           material_at_points(findings.all[n].made_by)));
-          if (!is_problem_below)
+          const bool is_compared =
+            std::any_of(found.tiles.begin(), found.tiles.end(), [](const Tile& tile) { return !tile.notes.empty(); });
+          if (!is_problem_below && is_compared)
             block.headline = found.headline;
+          else if (!is_problem_below)
+            block.paragraphs.push_back(found.headline);
           if (n == 0 && findings.calibration)
             {
               const std::string statement = "Calibration: " + text::sentence(findings.calibration->statement);
               block.headline =
                 block.headline.empty() ? statement : statement + " Comparison with the experiments: " + block.headline;
             }
+          block.tiles = found.tiles;
           block.points = found.points;
           if (block.warnings.empty() && shared.of_all.empty())
             block.paragraphs.push_back("Every check of the section Trust is within its bounds.");
         }
-      if (!block.headline.empty() || !block.paragraphs.empty() || !block.points.empty() || !block.warnings.empty())
+      if (!block.headline.empty() || !block.paragraphs.empty() || !block.tiles.empty() || !block.points.empty() ||
+          !block.warnings.empty())
         section.blocks.push_back(block);
     }
-  PageBlock table;
+  if (!findings.has_many() && !shared.of_all.empty())
+    {
+      PageBlock of_all;
+      of_all.subheading = "All models";
+      of_all.warnings = shared.of_all;
+      section.blocks.push_back(of_all);
+    }
+  PageBlock remarks, table;
+  if (!findings.has_many())
+    table.folded = "Every property of model and rock";
   if (is_problem_below && !findings.has_many())
-    table.warnings.push_back(findings.reference_problem + ".");
+    remarks.warnings.push_back(findings.reference_problem + ".");
   for (const std::string& remark : gap_remarks(findings.all))
-    table.warnings.push_back(remark + ".");
+    remarks.warnings.push_back(remark + ".");
   table.tables.push_back(findings.has_many() ? comparison_of_many(findings) : comparison_table(findings));
   if (findings.reference && findings.calibration)
     table.paragraphs.push_back(fmt::format(
@@ -166,6 +174,8 @@ PageSection verdict_section(const Findings& findings)
       if (!source.empty())
         table.paragraphs.push_back("Reference: " + source + ".");
     }
+  if (!remarks.warnings.empty())
+    section.blocks.push_back(remarks);
   section.blocks.push_back(table);
   return section;
 }

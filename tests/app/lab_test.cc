@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -345,34 +344,15 @@ end
     EXPECT_TRUE(test["peak_stress_Pa"].is_number()) << test["name"];
   EXPECT_EQ(json["input"]["parameters"]["Specimen"]["Dimension"], "3");
   EXPECT_TRUE(fs::exists(out / "figures/overview.png"));
-  // The bodies in space: above the keys on the left there is the colour of tension cracks, on the right that of grains.
-  EXPECT_NE(content(out / "report.html").find("figures/direct_tension_seed_1_space.png"), std::string::npos);
-  folder.write("colours.py", R"(import sys, vtk
-reader = vtk.vtkPNGReader()
-reader.SetFileName(sys.argv[1])
-reader.Update()
-values = bytes(memoryview(reader.GetOutput().GetPointData().GetScalars()))
-width = reader.GetOutput().GetDimensions()[0]
-pixels = [(k % width, *values[3 * k:3 * k + 3]) for k in range(120 * width, len(values) // 3)]
-print(sum(x < width / 3 and r - b > 60 for x, r, g, b in pixels),
-      sum(x > 2 * width / 3 and r == g == b and 60 < r < 220 for x, r, g, b in pixels)))");
-  const std::string script = (folder.path() / "colours.py").string();
-  const std::string picture = (out / "figures/triaxial_compression_10_MPa_seed_1_space.png").string();
-  FILE* const pipe = popen(("/usr/bin/python3 '" + script + "' '" + picture + "'").c_str(), "r");
-  int n_orange = 0;
-  int n_grey = 0;
-  EXPECT_EQ(fscanf(pipe, "%d %d", &n_orange, &n_grey), 2);
-  EXPECT_EQ(pclose(pipe), 0);
-  EXPECT_GT(n_orange, 100);
-  EXPECT_GT(n_grey, 5000);
-  // Without a display for VTK the rest of the report is made, and says what is missing.
+  // Pictures of specimens in space need gnuplot alone.
   fs::remove_all(out / "figures");
   fs::create_directory(folder.path() / "bin");
   fs::create_symlink("/usr/bin/gnuplot", folder.path() / "bin/gnuplot");
   ASSERT_EQ(run_feldspar(folder.path(), "report out", "PATH='" + (folder.path() / "bin").string() + "'").exit_code, 0);
-  EXPECT_TRUE(fs::exists(out / "figures/overview.png"));
-  EXPECT_NE(content(out / "report.html").find("_space.png was not drawn: are VTK and Xvfb (packages python3-vtk9 and"),
-            std::string::npos);
+  for (const char* const name :
+       {"overview", "direct_tension_seed_1_cracks", "triaxial_compression_10_MPa_seed_1_cracks"})
+    EXPECT_GT(fs::file_size(out / "figures" / (std::string(name) + ".png")), 10'000u) << name;
+  EXPECT_EQ(content(out / "report.html").find("class=\"absent\""), std::string::npos);
   // A box by three stresses.
   folder.write("box.prm", R"(subsection Specimen
   set Dimension = 3

@@ -46,15 +46,35 @@ addEventListener("load", async () => {
     claim("as printed", !frame.classList.contains("live") && frame.querySelector("img").checkVisibility());
     frame.querySelector(".again").click();
     claim("interactive again", frame.classList.contains("live"));
-    const source = [...document.querySelectorAll("script.live-data")].find(one => JSON.parse(one.textContent).what === "cracks");
-    const story = source.closest("figure");
-    story.scrollIntoView();
+    const source = [...document.querySelectorAll("script.live-data")].find(one => JSON.parse(one.textContent).what === "specimen");
+    const specimen = source.closest("figure");
+    const data = JSON.parse(source.textContent);
+    specimen.scrollIntoView();
     await pause();
-    const slider = story.querySelector("input"), words = story.querySelector("output");
+    const picture = specimen.querySelector("canvas"), slider = specimen.querySelector("input[type=range]");
+    const words = specimen.querySelector("output"), reading = specimen.querySelector(".reading");
+    const all = [atob(data.grains.fragment).length / 2, atob(data.cracks.row).length / 2];
+    const whole_picture = picture.countSeen();
+    claim("grains", whole_picture[0] === all[0]);
+    // Segments of one joint lie side by side, some of them on others.
+    claim("cracks", all[1] > 0 && whole_picture[1] > 0.7 * all[1] && whole_picture[1] <= all[1]);
     const last = words.textContent;
     slider.value = 0;
     slider.dispatchEvent(new Event("input"));
-    claim("slider", words.textContent !== last && /: 0 in tension/.test(words.textContent));
+    claim("slider", words.textContent !== last && /: 0 in tension/.test(words.textContent) && picture.countSeen()[1] === 0);
+    const place = new Uint16Array(Uint8Array.from(atob(data.grains.place), one => one.charCodeAt(0)).buffer);
+    const spot = picture.placeOf(7);
+    const frame_of_picture = picture.getBoundingClientRect();
+    for (const kind of ["pointerdown", "pointerup"])
+      picture.dispatchEvent(new PointerEvent(kind, {clientX: frame_of_picture.left + spot[0], clientY: frame_of_picture.top + spot[1], pointerId: 1, bubbles: true}));
+    const x = data.low[0] + (data.span * place[4 * 6]) / 65535;
+    claim("pick", reading.textContent.startsWith(`Grain 7 at (${Number(x.toPrecision(4))},`));
+    for (let k = 0; k < 9; ++k)
+      picture.dispatchEvent(new KeyboardEvent("keydown", {key: "+"}));
+    claim("enlarge", picture.countSeen()[0] < all[0]);
+    picture.dispatchEvent(new KeyboardEvent("keydown", {key: "0"}));
+    claim("whole", picture.countSeen()[0] === all[0]);
+    said.push("faces " + picture.dataset.faces);
   } catch (error) {
     said.push("-" + error);
   }

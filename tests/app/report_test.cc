@@ -121,14 +121,16 @@ TEST_F(Report, IsOneFileThatNeedsNoOther)
   EXPECT_EQ(count(words, "class=\"absent\""), 0u);
   EXPECT_EQ(count(words, "{{"), 0u);
   // Maps that a slider shows have a caption of their own beside that of the printed map.
-  const std::size_t n_sliders = count(words, R"({"what":"cracks",)");
+  const std::size_t n_sliders = count(words, R"({"what":"specimen",)");
   EXPECT_GE(n_sliders, 4u);
   EXPECT_EQ(count(words, "<span class=\"of-live\">"), n_sliders);
   EXPECT_EQ(count(words, "<span class=\"of-picture\">"), n_sliders);
   holds(words,
-        {"Test granite: model and rock", "Does the model match the rock?", "Not in every respect: 1 of 2 properties",
-         "✗ Out of range: uniaxial compressive strength", "✓ In range: tensile strength", "Strength envelope",
-         "Only 2 specimens", "a model", "made up", "Width"});
+        {"Test granite: model and rock", "Does the model match the rock?",
+         "No. Uniaxial compressive strength is outside the measured range (2 specimens); 1 of 2 properties lie within.",
+         "<li class=\"bad\"><span class=\"property\">uniaxial compressive strength</span>",
+         "<li class=\"good\"><span class=\"property\">tensile strength</span>", "Strength envelope", "Only 2 specimens",
+         "a model", "made up", "Width"});
 }
 
 // Each of the 2 x 26 series is a copy of the tests of one specimen under a label of its own: 52 are more than the 12 that a page
@@ -289,10 +291,10 @@ TEST_F(Report, ComparisonIsATableForADataFrame)
 
 TEST_F(Report, LeavesFiguresAndTablesForAPaper)
 {
-  for (const char* name :
-       {"envelope", "envelope_near_uniaxial", "residuals_out", "uniaxial_compression_stress",
-        "uniaxial_compression_cracks", "uniaxial_compression_energy", "uniaxial_compression_crack_rate",
-        "triaxial_compression_20_MPa_stress", "rose_out", "shear_share", "fragment_sizes_out"})
+  for (const char* name : {"envelope", "envelope_near_uniaxial", "envelopes", "compression_out", "residuals_out",
+                           "uniaxial_compression_stress", "uniaxial_compression_cracks", "uniaxial_compression_energy",
+                           "uniaxial_compression_crack_rate", "triaxial_compression_20_MPa_stress", "rose_out",
+                           "shear_share", "fragment_sizes_out"})
     for (const char* ending : {".svg", ".pdf", ".gp"})
       EXPECT_GT(fs::file_size(folder.path() / "out/figures" / (std::string(name) + ending)), 500u) << name << ending;
   for (const char* name : {"uniaxial_compression_seed_2_cracks.png", "uniaxial_compression_seed_1_fragments.png"})
@@ -485,8 +487,8 @@ TEST_F(Report, WithoutGnuplotHasItsWordsAndTables)
 {
   fs::remove_all(folder.path() / "out/figures");
   const std::string words = remade();
-  holds(words, {"Pictures are missing: ", "is gnuplot (package gnuplot-nox) installed?", "Not in every respect",
-                "class=\"absent\""});
+  holds(words, {"Pictures are missing: ", "is gnuplot (package gnuplot-nox) installed?",
+                "is outside the measured range", "class=\"absent\""});
   EXPECT_EQ(count(words, "<img"), 0u);
 }
 
@@ -741,7 +743,8 @@ public:
     const TemporaryFolder profile; // with its crash reports and caches
     const std::string out = (profile.path() / "out").string();
     const std::string command = fmt::format(
-      "HOME='{0}' timeout 60 chromium --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage "
+      "HOME='{0}' timeout 60 chromium --headless=new --no-sandbox --disable-gpu "
+      "--enable-unsafe-swiftshader --disable-dev-shm-usage "
       "--user-data-dir='{0}/profile' --hide-scrollbars --enable-logging=stderr {1} 'file://{2}' >'{3}' 2>'{3}.err'",
       profile.path().string(), arguments, page.string(), out);
     Outcome outcome{};
@@ -749,7 +752,8 @@ public:
     outcome.output = content(out);
     std::istringstream errors(content(out + ".err"));
     for (std::string line; std::getline(errors, line);)
-      if (line.find(":CONSOLE") != std::string::npos)
+      // Where a picture by WebGL is copied, the browser remarks on its own speed.
+      if (line.find(":CONSOLE") != std::string::npos && line.find("GL Driver Message") == std::string::npos)
         outcome.error += line + "\n";
     return outcome;
   }
@@ -831,7 +835,16 @@ TEST_F(Report, AnswersToTheMouse)
                                           content(std::string(FELDSPAR_SOURCE_DIR) + "/tests/app/page_probe.js")));
   const auto shown =
     Browser::show(folder.path() / "probed.html", "--window-size=1280,900 --virtual-time-budget=15000 --dump-dom");
-  EXPECT_EQ(title_of(shown), "probed +hover +zoom +whole range +hide +show +as printed +interactive again +slider");
+  const std::string title = title_of(shown);
+  const std::size_t faces = title.find(" faces ");
+  EXPECT_EQ(title.substr(0, faces),
+            "probed +hover +zoom +whole range +hide +show +as printed +interactive again +grains +cracks "
+            "+slider +pick +enlarge +whole");
+  // Polygons of grains have a face where there is a joint; the load has moved a few pairs across the installation gap.
+  const auto summary = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
+  const auto n_joints = summary["tests"][0]["n_joints"].get<double>();
+  ASSERT_NE(faces, std::string::npos) << title;
+  EXPECT_NEAR(std::stod(title.substr(faces + 7)), n_joints, 0.1 * n_joints); // of another seed perhaps
 }
 
 TEST_F(Report, ShowsItsPicturesWithoutItsScript)

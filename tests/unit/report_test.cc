@@ -9,9 +9,9 @@
 #include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/envelope_curves.h"
 #include "report/pictures/figures.h"
-#include "report/pictures/maps/crack_story.h"
 #include "report/pictures/maps/group_colour.h"
 #include "report/pictures/maps/map.h"
+#include "report/pictures/maps/specimen_data.h"
 #include "report/report.h"
 #include "report/sections/comparison.h"
 #include "report/sections/provenance.h"
@@ -433,19 +433,20 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   const auto said = [&](const std::optional<Reference>& reference, const std::string& problem) {
     const Verdict answer = verdict(compare(tests, reference), reference, problem);
     std::string text = answer.headline + "\n";
-    for (const auto& point : answer.points)
-      text += point + "\n";
+    for (const Tile& tile : answer.tiles)
+      text += fmt::format("{}: {}, n = {}; {}\n", tile.property, tile.value, tile.n, tile.notes);
     return text;
   };
   const auto holds = [](const std::string& text, const std::vector<std::string>& all_words) {
     for (const auto& words : all_words)
       EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
   };
-  holds(said(granite(120.0, 130.0), ""),
-        {"Yes, by the 1 property", "✓ In range: uniaxial compressive strength 126.0 ± 6.0 MPa, n = 3; experiment 125.0",
-         "+0.8 %", "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range",
-         "No range given: Young's modulus"});
-  holds(said(granite(127.0, 130.0), ""), {"Not in every respect: 1 of 1", "✗ Out of range",
+  holds(
+    said(granite(120.0, 130.0), ""),
+    {"Yes. Uniaxial compressive strength lies within the measured range (3 specimens). 1 without a range deviates by",
+     "uniaxial compressive strength: 126.0 ± 6.0 MPa, n = 3; experiment 125.0", "+0.8 %",
+     "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range", "Young's modulus"});
+  holds(said(granite(127.0, 130.0), ""), {"No. Uniaxial compressive strength is outside the measured range",
                                           "experiment 125.0 (127.0 to 130.0) MPa", "reaches into the range"});
   // All of the interval inside, or all of it outside: no such remark.
   EXPECT_EQ(said(granite(1.0, 500.0), "").find("reaches"), std::string::npos);
@@ -453,7 +454,7 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   // The unit belongs to the mean, not to the number of tests.
   Reference of_tests = granite(120.0, 130.0);
   of_tests.experiment.values["uniaxial_compressive_strength_MPa"].n = 6;
-  holds(said(of_tests, ""), {"experiment 125.0 MPa, n = 6 (120.0 to 130.0); +0.8 %"});
+  holds(said(of_tests, ""), {"experiment 125.0 MPa, n = 6 (120.0 to 130.0), +0.8 %"});
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
   // Fewer specimens have no such interval, which is said instead.
   tests.pop_back();
@@ -1281,8 +1282,9 @@ TEST(Report, OfACalibrationBeginsWithItsStatementAndHasThePairsBelow)
     return at;
   };
   const std::size_t first_line = place(
-    "Calibration: All targets were reached within 3 %. Comparison with the experiments: Yes, by the 3 properties");
-  place("In range: Young&apos;s modulus, initial 60.0");
+    "Calibration: All targets were reached within 3 %. Comparison with the experiments: Yes. Uniaxial compressive strength, Young&apos;s modulus "
+    "and Poisson&apos;s ratio lie within the measured ranges (3 specimens).");
+  place("Young&apos;s modulus, initial</span> <b><span class=\"mark\">✓</span> 60.0");
   place("Young&apos;s modulus is taken to be the initial one and Poisson&apos;s ratio the initial one");
   const std::size_t found = place("How the micro-parameters were found");
   EXPECT_LT(first_line, page.find("<figcaption>"));
@@ -1463,6 +1465,21 @@ TEST(Chart, OfCurvesHasTheirPoints)
   EXPECT_EQ(n_thin, 2u);
 }
 
+// Axial strain goes to 3e-3; a piece that breaks off moves 20 times as far sideways.
+TEST(Chart, OfStressEndsItsAxisWhereTheAxialStrainEnds)
+{
+  std::vector<Series> all{{"rock", SeriesKind::specimens, {}, {compression(1)}, {}}};
+  const auto part = [&] { return nlohmann::json::parse(curve_pictures(all).at(0).pictures.at(0).live())["part"]; };
+  EXPECT_TRUE(part().is_null());
+  for (CurveSample& row : all[0].tests[0].record.curve)
+    row.gauge_lateral_strain = 0.06;
+  const auto limited = part();
+  ASSERT_EQ(limited.size(), 4u);
+  EXPECT_NEAR(limited[0], -3.0, 1e-3);
+  EXPECT_NEAR(limited[1], 3.06, 1e-3);
+  EXPECT_EQ(limited[2], 0.0);
+}
+
 TEST(CaptionOfCurves, NamesBandsWhereThereAreAny)
 {
   const auto caption = [](const std::vector<FinishedTest>& tests) {
@@ -1528,37 +1545,89 @@ TEST(CrackMap, NumbersTheFirstJointsThatBroke)
   EXPECT_NE(map.live_caption.find("broken up to the place of the slider"), std::string::npos) << map.live_caption;
 }
 
-TEST(CrackStory, GivesEachCrackTheRowByWhichItIsThere)
+/// Whole numbers without sign out of base64, the lowest byte first.
+std::vector<unsigned int> numbers_in(const std::string& base64, const std::size_t n_bytes)
+{
+  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<unsigned int> numbers;
+  unsigned int bits = 0, n_bits = 0, value = 0;
+  std::size_t n = 0;
+  for (const char letter : base64.substr(0, base64.find('=')))
+    {
+      bits = (bits << 6U) | unsigned(letters.find(letter));
+      n_bits += 6;
+      if (n_bits < 8)
+        continue;
+      n_bits -= 8;
+      value |= ((bits >> n_bits) & 0xffU) << (8 * n);
+      if (++n == n_bytes)
+        {
+          numbers.push_back(value);
+          value = 0;
+          n = 0;
+        }
+    }
+  EXPECT_EQ(n, 0u);
+  return numbers;
+}
+
+TEST(SpecimenData, GivesEachCrackTheRowByWhichItIsThere)
 {
   const FinishedTest test = compression(1);
-  const auto json = nlohmann::json::parse(crack_story(test));
+  const auto json = nlohmann::json::parse(specimen_data(test));
   ASSERT_EQ(json["rows"].size(), 31u);
   EXPECT_EQ(json["rows"][20], nlohmann::json::parse("[2.0, 120.0, 30, 5]")); // 10⁻³, MPa
-  ASSERT_EQ(json["cracks"].size(), 40u);
+  EXPECT_FALSE(json["space"]);
+  const auto rows = numbers_in(json["cracks"]["row"], 2);
+  ASSERT_EQ(rows.size(), 40u);
   // Crack k broke at step 110 + 5 k, and row n stands at step 10 n: the first is there by row 11, the next by row 12.
-  EXPECT_EQ(json["cracks"][0][5], 11);
-  EXPECT_EQ(json["cracks"][1][5], 12);
-  EXPECT_EQ(json["cracks"][39][5], 30); // after the last row: with it
-  EXPECT_EQ(json["cracks"][0][4], 1);   // shear
-  // The face stands square to its normal (0.6, 0.8), 0.3 mm long.
-  EXPECT_NEAR(json["cracks"][0][2], -0.24, 1e-3);
-  EXPECT_NEAR(json["cracks"][0][3], 0.18, 1e-3);
-  EXPECT_EQ(json["grains"][0], nlohmann::json::parse("[10.0, 20.0, 0.62]")); // where it was at the start, mm
+  EXPECT_EQ(rows[0], 11u);
+  EXPECT_EQ(rows[1], 12u);
+  EXPECT_EQ(rows[39], 30u); // after the last row: with it
+  EXPECT_EQ(numbers_in(json["cracks"]["joint"], 4).size(), 40u);
+  // The normal is (0.6, 0.8), the crack 0.3 mm long and of shear.
+  const auto normals = numbers_in(json["cracks"]["normal"], 1);
+  EXPECT_EQ((std::vector(normals.begin(), normals.begin() + 4)), (std::vector{76u, 102u, 0u, 1u}));
+  EXPECT_NEAR(json["size"], 0.3, 1e-6);
+  // Grains lie where they were at the start.
+  const std::size_t n_grains = test.appearance.grains_at_end.size();
+  const auto places = numbers_in(json["grains"]["place"], 2);
+  ASSERT_EQ(places.size(), 4 * n_grains);
+  const double span = json["span"];
+  EXPECT_NEAR(double(json["low"][0]) + span * places[0] / 65535.0, 10.0, span * 1e-4); // [mm]
+  EXPECT_NEAR(double(json["low"][1]) + span * places[1] / 65535.0, 20.0, span * 1e-4);
+  EXPECT_EQ(numbers_in(json["grains"]["moved"], 2).size(), 3 * n_grains);
+  EXPECT_EQ(numbers_in(json["grains"]["fragment"], 2).size(), n_grains);
+  EXPECT_EQ(json["grains"]["tone"], "");
 
   FinishedTest grouped = test; // of a mineral grain or clump
   grouped.appearance.grains_at_end[0].mineral = 1;
-  const auto with_groups = nlohmann::json::parse(crack_story(grouped));
-  EXPECT_EQ(with_groups["grains"][0], nlohmann::json::parse(R"([10.0, 20.0, 0.62, "#ead9b8"])"));
-  EXPECT_EQ(with_groups["grains"][1].size(), 3u);
+  const auto tones = numbers_in(nlohmann::json::parse(specimen_data(grouped))["grains"]["tone"], 1);
+  EXPECT_EQ((std::vector(tones.begin(), tones.begin() + 3)), (std::vector{0xeau, 0xd9u, 0xb8u}));
 
   FinishedTest flawed = test;
   flawed.appearance.flaws.push_back({"slot", true, {{0.002, 0.004, 0.0}, {0.006, 0.008, 0.0}}});
-  EXPECT_EQ(nlohmann::json::parse(crack_story(flawed))["flaws"],
-            nlohmann::json::parse(R"([{"open": true, "outline": [[2.0, 4.0], [6.0, 8.0]]}])"));
+  EXPECT_EQ(nlohmann::json::parse(specimen_data(flawed))["flaws"],
+            nlohmann::json::parse(R"([{"open": true, "outline": [[2.0, 4.0, 0.0], [6.0, 8.0, 0.0]]}])"));
 
   FinishedTest without = test;
   without.record.cracks.clear();
-  EXPECT_EQ(crack_story(without), "");
+  EXPECT_EQ(specimen_data(without), "");
+}
+
+TEST(SpecimenData, OfManyGrainsKeepsSomeSoThatAPageStaysSmall)
+{
+  FinishedTest test = compression(1);
+  auto& grains = test.appearance.grains_at_end;
+  const GrainPicture grain = grains.front();
+  grains.assign(200'000, grain);
+  const std::string most = specimen_data(test);
+  EXPECT_EQ(nlohmann::json::parse(most)["grains"]["every"], 1);
+  EXPECT_LT(most.size(), 5'000'000u);
+  grains.assign(200'001, grain);
+  const auto thinned = nlohmann::json::parse(specimen_data(test))["grains"];
+  EXPECT_EQ(thinned["every"], 2);
+  EXPECT_EQ(numbers_in(thinned["fragment"], 2).size(), 100'001u);
 }
 
 TEST(GroupColours, OfGroupsThatTouchDiffer)

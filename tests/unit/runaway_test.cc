@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 /// Numbers that go wrong are caught where they do.
 namespace feldspar
@@ -138,10 +139,10 @@ TEST(Runaway, EndsATestWhoseTimeStepIsTooLongAndKeepsTheRowsBefore)
 
 /// A pressed specimen whose platens measure this stress from a step on.
 template <std::uint64_t from_step>
-SetUpTest<2> set_up_with_stress(const double stress, const Specimen<2>& specimen, const TestParameters& wanted,
+SetUpTest<2> set_up_with_stress(const double stress, Specimen<2> specimen, const TestParameters& wanted,
                                 const DynamicsParameters& dynamics)
 {
-  SetUpTest<2> set_up = (*uniaxial_compression.set_up_2d)(specimen, 0.0, wanted, dynamics);
+  SetUpTest<2> set_up = (*uniaxial_compression.set_up_2d)(std::move(specimen), 0.0, wanted, dynamics);
   set_up.loading.end_stress = [stress, measured = set_up.loading.end_stress](const Dynamics<2>& body) {
     return body.n_steps() < from_step ? measured(body) : EndStress{stress, stress};
   };
@@ -149,12 +150,12 @@ SetUpTest<2> set_up_with_stress(const double stress, const Specimen<2>& specimen
 }
 
 template <std::uint64_t from_step, bool is_infinite>
-SetUpTest<2> wrong_set_up(const Specimen<2>& specimen, double, const TestParameters& wanted,
+SetUpTest<2> wrong_set_up(Specimen<2> specimen, double, const TestParameters& wanted,
                           const DynamicsParameters& dynamics)
 {
   using Limits = std::numeric_limits<double>;
-  return set_up_with_stress<from_step>(is_infinite ? Limits::infinity() : Limits::quiet_NaN(), specimen, wanted,
-                                       dynamics);
+  return set_up_with_stress<from_step>(is_infinite ? Limits::infinity() : Limits::quiet_NaN(), std::move(specimen),
+                                       wanted, dynamics);
 }
 
 // Forces may overflow while all grains still stand right.
@@ -269,7 +270,7 @@ TEST(Runaway, DoesNotSpeakUpInExtremesOfClumpsAndSmoothJoints)
         const auto packed = make_specimen<2>(wanted, flat_joint, contact, 1);
         TestParameters parameters;
         parameters.of<CompressionParameters>().sampling_strain = 2e-4;
-        const auto holds = [&](const Specimen<2>& specimen, const double rate, const std::string& body) {
+        const auto holds = [&](Specimen<2> specimen, const double rate, const std::string& body) {
           parameters.of<CompressionParameters>().strain_rate = rate;
           const auto outcome = run(LabTest<2>({uniaxial_compression}, specimen, parameters, {damping, 1.0}), 40);
           const std::string which = fmt::format("{}, friction {}, damping {}", body, friction, damping);

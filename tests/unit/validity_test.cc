@@ -3,7 +3,7 @@
 
 #include "dem/lab/protocols/protocols.h"
 #include "report/pictures/figures.h"
-#include "report/pictures/maps/crack_story.h"
+#include "report/pictures/maps/specimen_data.h"
 #include "report/sections/comparison.h"
 #include "results/fits/run_envelopes.h"
 #include "results/fits/strength_data.h"
@@ -408,9 +408,9 @@ TEST(NumbersThatAreNone, InTablesAreNamedAndNeverReachThePage)
         std::string::npos)
         << of_curve[0].problems[0];
       ASSERT_EQ(of_curve[0].tests[0].record.curve.size(), 15u);
-      const auto story = nlohmann::json::parse(crack_story(of_curve[0].tests[0])); // throws where a number is nan
-      EXPECT_TRUE(story["rows"][9][1].is_null());
-      EXPECT_EQ(story["cracks"].size(), 1u);
+      const auto shown = nlohmann::json::parse(specimen_data(of_curve[0].tests[0])); // throws where a number is nan
+      EXPECT_TRUE(shown["rows"][9][1].is_null());
+      EXPECT_EQ(shown["cracks"]["joint"].get<std::string>().size(), 8u); // four bytes of one crack
     }
   // A text that is no number, or a number beyond their range, makes the table unreadable; the line says where.
   for (const char* const none : {"", "1e999", "-1e999"})

@@ -1,9 +1,12 @@
+#include "report/chart/gnuplot_writer.h"
 #include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -36,11 +39,10 @@ double strain_at_peak(const TestGroup& group)
 /// Stress over a strain, up to `end` of the axial strain; the band lies along the axis along which `sideways` says the
 /// tests scatter.
 void add_stress_curve(Chart& chart, const SeriesGroup& of, const Quantity& strain, const bool sideways,
-                      const double end, const int dashes, const std::string& label)
+                      const double end, const int dashes, const std::string& label, const std::string& its_colour)
 {
   const auto& group = of.group;
   const double sign = group.kind.sign;
-  const std::string series_colour = colour(*of.series, of.n);
   const bool each_alone = group.kind.follows_stages; // back and forth, each on its own way
   if (group.tests.size() > 1 || each_alone)
     for (const auto* test : group.tests)
@@ -49,7 +51,7 @@ void add_stress_curve(Chart& chart, const SeriesGroup& of, const Quantity& strai
         const std::size_t stride = 1 + curve.size() / most_rows;
         ChartSeries line{.label = fmt::format("{}, seed {}", label, test->record.seed),
                          .goes_with = each_alone ? "" : label,
-                         .colour = series_colour,
+                         .colour = its_colour,
                          .width = !each_alone              ? 0.5
                                   : group.tests.size() > 1 ? 1.0
                                                            : 2.2};
@@ -63,7 +65,7 @@ void add_stress_curve(Chart& chart, const SeriesGroup& of, const Quantity& strai
   const Band stress = band(
     group, [&](const CurveSample& row) { return row.*group.kind.channel.value; }, true);
   const Band strains = band(group, strain, true);
-  ChartSeries mean{.label = label, .colour = series_colour, .dashes = dashes};
+  ChartSeries mean{.label = label, .colour = its_colour, .dashes = dashes};
   std::vector<std::array<double, 2>> deviations;
   for (std::size_t k = 0; k < stress.abscissa.size() && stress.abscissa[k] <= end; ++k)
     {
@@ -73,6 +75,24 @@ void add_stress_curve(Chart& chart, const SeriesGroup& of, const Quantity& strai
           {sideways ? strains.deviation[k] / milli : 0.0, sideways ? 0.0 : stress.deviation[k] / mega});
     }
   add_mean(chart, std::move(mean), deviations);
+}
+
+/// Ends the axis of strain where the axial strain ends: broken pieces move sideways many times as far.
+void end_with_axial_strain(Chart& chart)
+{
+  double axial = 0.0, least = 0.0, highest = 0.0;
+  for (const ChartSeries& series : chart.series)
+    for (const ChartPoint& point : series.points)
+      {
+        least = std::min(least, point[0]);
+        axial = std::max(axial, point[0]);
+        highest = std::max(highest, point[1]);
+      }
+  if (least >= -axial)
+    return;
+  chart.x.from = -axial;
+  chart.x.to = 1.02 * axial;
+  chart.y.to = 1.05 * highest;
 }
 } // namespace
 
@@ -99,23 +119,59 @@ Pictures stress_picture(const SameTests& same)
       };
       add_stress_curve(
         chart, of, [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1,
-        label(is_uniform ? std::string("axial") : std::string(kind.channel.name)));
+        label(is_uniform ? std::string("axial") : std::string(kind.channel.name)), colour(*of.series, of.n));
       if (!is_uniform)
         continue;
       const double peak = strain_at_peak(of.group);
       const double end = peak > 0.0 ? peak : 1.0;
       add_stress_curve(
-        chart, of, [](const CurveSample& row) { return row.gauge_lateral_strain; }, true, end, 2, label("lateral"));
+        chart, of, [](const CurveSample& row) { return row.gauge_lateral_strain; }, true, end, 2, label("lateral"),
+        colour(*of.series, of.n));
       add_stress_curve(
         chart, of, [](const CurveSample& row) { return row.gauge_volumetric_strain; }, true, end, 4,
-        label("volumetric"));
+        label("volumetric"), colour(*of.series, of.n));
     }
+  if (is_uniform && !kind.follows_stages)
+    end_with_axial_strain(chart);
   const std::string what = is_uniform
                              ? std::string("Stress against axial, lateral and volumetric strain")
                              : fmt::format("{} against {}", with_capital(kind.channel.name), kind.channel.strain_name);
   return curve_picture(std::move(chart), same, "_stress",
-                       what + (kind.follows_stages ? "" : means_of_several(same, true)) +
+                       same.front().group.title() + ": " + what +
+                         (kind.follows_stages ? "" : means_of_several(same, true)) +
                          (is_uniform ? ". Lateral and volumetric strain up to the mean strain at peak" : ""),
                        what + " in " + same.front().group.title() + ".");
+}
+
+Pictures compression_curves(const SeriesAmong& of)
+{
+  // From light to dark, as the confinement rises.
+  constexpr std::array tones{"#8fbcbb", "#56b4e9", "#0072b2", "#332288", "#882255", "#cc6677", "#e69f00", "#999933"};
+  Chart chart{.x = {.label = "axial strain [10⁻³], shortening positive", .from = 0.0},
+              .y = {.label = "axial stress [MPa]", .from = 0.0},
+              .key_columns = 2};
+  SameTests drawn;
+  for (const TestGroup& group : groups_of(of.series()))
+    if (group.envelope_role() == EnvelopeRole::compression && group.kind.has_uniform_stress &&
+        !group.kind.follows_stages &&
+        std::none_of(group.tests.begin(), group.tests.end(),
+                     [](const FinishedTest* test) { return test->record.curve.empty(); }))
+      {
+        drawn.push_back({&of.series(), of.n, group});
+        add_stress_curve(
+          chart, drawn.back(), [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1, group.title(),
+          tones[(drawn.size() - 1) % tones.size()]);
+      }
+  if (drawn.size() < 2)
+    return {};
+  std::erase_if(chart.series,
+                [](const ChartSeries& one) { return one.kind == ChartSeries::Kind::line && !one.goes_with.empty(); });
+  return {{.name = "compression_" + file_name(of.series().label),
+           .caption = (of.all.size() > 1 ? of.series().label + ": stress" : std::string("Stress")) +
+                      " against axial strain at every confinement" + means_of_several(drawn),
+           .alternative = "Axial stress against axial strain in compression, a line for each confinement.",
+           .width = 660,
+           .height = 520 + further_height(chart, 660),
+           .panels = {std::move(chart)}}};
 }
 } // namespace feldspar

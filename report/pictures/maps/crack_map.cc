@@ -1,9 +1,9 @@
 #include "base/append.h"
 #include "base/prefixes.h"
 #include "report/pictures/figures.h"
-#include "report/pictures/maps/crack_story.h"
 #include "report/pictures/maps/group_colour.h"
 #include "report/pictures/maps/map.h"
+#include "report/pictures/maps/specimen_data.h"
 
 #include <fmt/format.h>
 
@@ -77,11 +77,12 @@ void add_numbers(Chart& chart, const std::vector<Crack>& cracks, const std::size
 }
 } // namespace
 
-Pictures crack_map(const FinishedTest& test, const std::string& title)
+Pictures crack_map(const FinishedTest& whole, const std::string& title)
 {
+  if (whole.record.body == TestBody::finite_elements)
+    return damage_map(whole, title);
+  const FinishedTest test = cut_open(whole);
   const TestRecord& record = test.record;
-  if (record.body == TestBody::finite_elements)
-    return damage_map(test, title);
   const auto& grains = test.appearance.grains_at_end;
   if (grains.empty() || record.curve.empty())
     return {};
@@ -116,7 +117,8 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
   const auto [width, height] = panel_size(frame);
   const int n_panels = int(panels.size());
   const int columns = is_long(frame) ? 1 : n_panels;
-  const std::string view = record.dimension() == 3 ? ", seen from the front through the whole body" : "";
+  const std::string view =
+    record.dimension() == 3 ? ", in the half behind the mid-plane, with the cracks near the cut" : "";
   return {{.name = test.name + "_cracks",
            .caption = fmt::format("{}, {}: cracks {}{}{}{}", title, seed_of(test), in_words(all_stages), view,
                                   record.cracks.empty() ? "" : "; numbers: the order in which the first joints broke",
@@ -129,8 +131,7 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
            .vector = false,
            .panels = std::move(panels),
            .columns = columns,
-           .story = crack_story(test),
-           .live_caption =
-             fmt::format("{}, {}: segments broken up to the place of the slider{}", title, seed_of(test), view)}};
+           .story = specimen_data(whole),
+           .live_caption = fmt::format("{}, {}: segments broken up to the place of the slider", title, seed_of(test))}};
 }
 } // namespace feldspar

@@ -35,15 +35,16 @@ std::map<std::uint32_t, double> fragment_diameters(const FinishedTest& test)
 }
 } // namespace
 
-Pictures fragment_map(const FinishedTest& test, const std::string& title)
+Pictures fragment_map(const FinishedTest& whole, const std::string& title)
 {
-  const TestRecord& record = test.record;
-  if (test.appearance.grains_at_end.empty())
+  if (whole.appearance.grains_at_end.empty())
     return {};
+  const FinishedTest test = cut_open(whole);
+  const TestRecord& record = test.record;
   const std::size_t axis = vertical_axis(record);
   const MapFrame map_frame = map_frame_of(test);
   const MapLimits& frame = map_frame.frame;
-  const auto diameters = fragment_diameters(test);
+  const auto diameters = fragment_diameters(whole);
   double smallest = std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const auto& [number, diameter] : diameters)

@@ -58,58 +58,26 @@ Chart curve_of(const FinishedTest& test, const std::string& title, const bool is
   return chart;
 }
 
-/// Grains of the largest fragment and the others; cracks as the faces that broke. upwards: the name of the axis.
-Chart map_of(const FinishedTest& test, const char upwards)
+/// Grains of the largest fragment and the others; cracks as the faces that broke.
+Chart map_of(const FinishedTest& test)
 {
+  const std::size_t axis = vertical_axis(test.record);
   const auto& grains = test.appearance.grains_at_end;
   const double width = test.record.size[0] / milli;
-  const double height = test.record.size[1] / milli;
+  const double height = test.record.size[axis] / milli;
   Chart chart{
     .look = Chart::Look::map,
     .title = with_seed(test) + ": cracks at the end",
     .x = {.label = "x [mm]", .from = -0.08 * width, .to = 1.08 * width, .step = 10.0},
-    .y = {.label = fmt::format("{} [mm]", upwards), .from = -0.02 * height, .to = 1.02 * height, .step = 10.0},
+    .y = {.label = axis == 2 ? "z [mm]" : "y [mm]", .from = -0.02 * height, .to = 1.02 * height, .step = 10.0},
     .equal_scales = true,
     .key_columns = 2,
-    .series = {grain_circles(grains, false, 1), grain_circles(grains, true, 1)}};
+    .series = {grain_circles(grains, false, axis), grain_circles(grains, true, axis)}};
   chart.series[0].label = "main body";
   chart.series[1].label = "fragments";
   append(chart.series, flaw_lines(test));
-  append(chart.series, crack_traces(test.record.cracks, 1, 2.0));
+  append(chart.series, crack_traces(test.record.cracks, axis, 2.0));
   return chart;
-}
-/// A test in space as pictures in the plane show it: the grains and cracks of a slice through the axis, a quarter of the
-/// depth thick, seen from the front (x to the right, z up). A test in the plane stays as it is.
-FinishedTest plane_view(FinishedTest test)
-{
-  TestRecord& record = test.record;
-  auto& grains = test.appearance.grains_at_end;
-  if (record.dimension() == 2)
-    return test;
-  const double depth = record.size[1];
-  const auto outside_slice = [depth](const std::array<double, 3>& point) {
-    return std::abs(point[1] - 0.5 * depth) > 0.125 * depth;
-  };
-  std::erase_if(grains, [&](const GrainPicture& grain) { return outside_slice(grain.position); });
-  std::erase_if(record.cracks, [&](const Crack& crack) { return outside_slice(crack.centroid); });
-  // The ones in front are drawn last.
-  std::sort(grains.begin(), grains.end(),
-            [](const GrainPicture& a, const GrainPicture& b) { return a.position[1] > b.position[1]; });
-  for (auto& grain : grains)
-    grain.position = {grain.position[0], grain.position[2], 0.0};
-  for (auto& crack : record.cracks)
-    {
-      // A small plate seen from the front: the line along which its plane cuts the picture's.
-      const double across = std::hypot(crack.normal[0], crack.normal[2]);
-      crack.centroid = {crack.centroid[0], crack.centroid[2], 0.0};
-      crack.normal = across > 0.0 ? std::array<double, 3>{crack.normal[0] / across, crack.normal[2] / across, 0.0}
-                                  : std::array<double, 3>{1.0, 0.0, 0.0};
-    }
-  for (auto& flaw : test.appearance.flaws)
-    for (auto& point : flaw.outline)
-      point = {point[0], point[2], 0.0};
-  record.size = {record.size[0], record.size[2], 0.0};
-  return test;
 }
 } // namespace
 
@@ -140,13 +108,11 @@ Pictures overview_picture(const Series& series)
   std::vector<Chart> panels;
   std::vector<Chart> maps;
   for (const auto& group : shown(groups_of(series)))
-    if (FinishedTest test = *group.tests.front();
+    if (const FinishedTest& test = *group.tests.front();
         !test.record.curve.empty() && test.record.body == TestBody::grains) // maps are of grains
       {
-        const char upwards = test.record.dimension() == 2 ? 'y' : 'z';
-        test = plane_view(std::move(test));
         panels.push_back(curve_of(test, with_seed(test), false));
-        maps.push_back(map_of(test, upwards));
+        maps.push_back(map_of(cut_open(test)));
       }
   if (panels.empty())
     return {};

@@ -122,6 +122,23 @@ std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks,
   return result;
 }
 
+FinishedTest cut_open(FinishedTest test)
+{
+  if (test.record.dimension() == 2)
+    return test;
+  const double middle = 0.5 * test.record.size[1];
+  auto& grains = test.appearance.grains_at_end;
+  double radius = 0.0;
+  for (const GrainPicture& grain : grains)
+    radius = std::max(radius, grain.radius);
+  std::erase_if(grains, [&](const GrainPicture& grain) { return grain.start[1] < middle; });
+  std::stable_sort(grains.begin(), grains.end(),
+                   [](const GrainPicture& a, const GrainPicture& b) { return a.start[1] > b.start[1]; });
+  std::erase_if(test.record.cracks,
+                [&](const Crack& crack) { return std::abs(crack.centroid[1] - middle) > 2.0 * radius; });
+  return test;
+}
+
 std::size_t vertical_axis(const TestRecord& record) { return record.size[2] > 0.0 ? 2 : 1; }
 
 std::string seed_of(const FinishedTest& test) { return fmt::format("seed {}", test.record.seed); }

@@ -51,6 +51,10 @@ struct MapPaper
 std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks, std::size_t axis,
                                                const MapPaper& paper);
 
+/// The half of a body in space behind its mid-plane, the farthest grains first, with the cracks near the cut. A body in
+/// the plane stays as it is.
+FinishedTest cut_open(FinishedTest test);
+
 /// The axis of the tests: the last one.
 std::size_t vertical_axis(const TestRecord& record);
 

@@ -1,0 +1,204 @@
+#include "report/pictures/maps/specimen_data.h"
+
+#include "base/prefixes.h"
+#include "report/chart/page_writer.h"
+#include "report/pictures/maps/group_colour.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+using live::number;
+
+constexpr std::size_t most_rows = 300;
+constexpr std::size_t most_grains = 200'000; ///< some 4 MB
+constexpr std::size_t most_cracks = 150'000; ///< some 4 MB
+
+/// Whole numbers of a few bytes each, the lowest byte first, as the script reads them.
+class Bytes
+{
+public:
+  void add(const std::int64_t value, const int n_bytes)
+  {
+    for (int k = 0; k < n_bytes; ++k)
+      bytes += char((std::uint64_t(value) >> (8 * k)) & 0xffU);
+  }
+
+  /// A share between 0 and 1.
+  void add_share(const double share) { add(std::lround(std::clamp(share, 0.0, 1.0) * 65535.0), 2); }
+
+  /// A share between -1 and 1.
+  void add_signed(const double share, const int n_bytes)
+  {
+    add(std::lround(std::clamp(share, -1.0, 1.0) * (n_bytes == 1 ? 127.0 : 32767.0)), n_bytes);
+  }
+
+  std::string text() const { return live::base64(bytes); }
+
+private:
+  std::string bytes;
+};
+
+/// The cube around all centres [m].
+struct Cube
+{
+  std::array<double, 3> low;
+  double span;
+
+  void add_place(Bytes& bytes, const std::array<double, 3>& place) const
+  {
+    for (std::size_t c = 0; c < 3; ++c)
+      bytes.add_share((place[c] - low[c]) / span);
+  }
+};
+
+Cube cube_around(const TestRecord& record, const std::vector<GrainPicture>& grains)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{infinity, infinity, infinity};
+  std::array<double, 3> high{-infinity, -infinity, -infinity};
+  const auto include = [&](const std::array<double, 3>& place) {
+    for (std::size_t c = 0; c < 3; ++c)
+      {
+        low[c] = std::min(low[c], place[c]);
+        high[c] = std::max(high[c], place[c]);
+      }
+  };
+  for (const GrainPicture& grain : grains)
+    include(grain.start);
+  for (const Crack& crack : record.cracks)
+    include(crack.centroid);
+  const double span = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  return {low, span > 0.0 ? span : 1.0};
+}
+
+/// One of how many is kept.
+std::size_t stride_of(const std::size_t n, const std::size_t most) { return 1 + (n - 1) / most; }
+
+Json grain_data(const std::vector<GrainPicture>& grains, const Cube& cube, const double largest_radius)
+{
+  const std::size_t every = stride_of(grains.size(), most_grains);
+  const auto moved = [](const GrainPicture& grain, const std::size_t c) { return grain.position[c] - grain.start[c]; };
+  double most_moved = std::numeric_limits<double>::min();
+  for (const GrainPicture& grain : grains)
+    for (std::size_t c = 0; c < 3; ++c)
+      most_moved = std::max(most_moved, std::abs(moved(grain, c)));
+  const bool has_groups =
+    std::any_of(grains.begin(), grains.end(), [](const GrainPicture& grain) { return grain.mineral != 0; });
+  const auto colours = has_groups ? group_colours(grains) : std::vector<unsigned int>();
+  Bytes places, moves, fragments, tones;
+  for (std::size_t i = 0; i < grains.size(); i += every)
+    {
+      cube.add_place(places, grains[i].start);
+      places.add_share(grains[i].radius / largest_radius);
+      for (std::size_t c = 0; c < 3; ++c)
+        moves.add_signed(moved(grains[i], c) / most_moved, 2);
+      fragments.add(std::min<std::uint32_t>(grains[i].fragment, 65535), 2);
+      for (int shift = 16; has_groups && shift >= 0; shift -= 8)
+        tones.add(colours[i] >> shift, 1);
+    }
+  return {{"every", every},
+          {"most_moved", number(most_moved / milli)},
+          {"place", places.text()},
+          {"moved", moves.text()},
+          {"fragment", fragments.text()},
+          {"tone", tones.text()}};
+}
+
+Json crack_data(const std::vector<Crack>& cracks, const std::vector<const CurveSample*>& rows, const Cube& cube,
+                const double largest_size)
+{
+  const std::size_t every = stride_of(cracks.size(), most_cracks);
+  Bytes places, normals, of_rows, joints;
+  for (std::size_t k = 0; k < cracks.size(); k += every)
+    {
+      const Crack& crack = cracks[k];
+      cube.add_place(places, crack.centroid);
+      places.add_share(crack.size / largest_size);
+      for (const double x : crack.normal)
+        normals.add_signed(x, 1);
+      normals.add(crack.kind == CrackKind::shear ? 1 : 0, 1);
+      // A crack belongs to the first of the rows that is not before it.
+      const auto row =
+        std::lower_bound(rows.begin(), rows.end() - 1, crack.step,
+                         [](const CurveSample* one, const std::uint64_t step) { return one->step < step; });
+      of_rows.add(row - rows.begin(), 2);
+      joints.add(std::int64_t(crack.joint), 4);
+    }
+  return {{"every", every},
+          {"place", places.text()},
+          {"normal", normals.text()},
+          {"row", of_rows.text()},
+          {"joint", joints.text()}};
+}
+
+Json flaw_data(const std::vector<FlawPicture>& flaws)
+{
+  Json all = Json::array();
+  for (const auto& flaw : flaws)
+    {
+      Json outline = Json::array();
+      for (const auto& point : flaw.outline)
+        outline.push_back({number(point[0] / milli), number(point[1] / milli), number(point[2] / milli)});
+      all.push_back({{"open", flaw.open}, {"outline", outline}});
+    }
+  return all;
+}
+} // namespace
+
+std::string specimen_data(const FinishedTest& test)
+{
+  const TestRecord& record = test.record;
+  const auto& grains = test.appearance.grains_at_end;
+  if (record.curve.empty() || record.cracks.empty() || grains.empty())
+    return "";
+  std::vector<const CurveSample*> kept;
+  for (std::size_t k = 0; k < record.curve.size(); k += 1 + record.curve.size() / most_rows)
+    kept.push_back(&record.curve[k]);
+  if (kept.back() != &record.curve.back())
+    kept.push_back(&record.curve.back());
+  Json rows = Json::array();
+  for (const CurveSample* row : kept)
+    rows.push_back({number(record.kind.strain(*row) / milli), number(record.kind.stress(*row) / mega, 4),
+                    row->n_tension_cracks, row->n_shear_cracks});
+
+  // In the order of breaking, so that those broken up to a row are the first.
+  std::vector<Crack> cracks = record.cracks;
+  std::stable_sort(cracks.begin(), cracks.end(),
+                   [](const Crack& one, const Crack& other) { return one.step < other.step; });
+  const Cube cube = cube_around(record, grains);
+  double radius = std::numeric_limits<double>::min();
+  double mean_radius = 0.0;
+  for (const GrainPicture& grain : grains)
+    {
+      radius = std::max(radius, grain.radius);
+      mean_radius += grain.radius / double(grains.size());
+    }
+  double size = std::numeric_limits<double>::min();
+  for (const Crack& crack : cracks)
+    size = std::max(size, crack.size);
+  return live::text({{"what", "specimen"},
+                     {"space", record.dimension() == 3},
+                     {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
+                     {"stress", std::string(record.kind.channel.name) + " [MPa]"},
+                     {"low", {number(cube.low[0] / milli), number(cube.low[1] / milli), number(cube.low[2] / milli)}},
+                     {"span", number(cube.span / milli)},
+                     {"radius", number(radius / milli)},
+                     {"size", number(size / milli)},
+                     {"gap", number(record.specimen.installation_gap_ratio * mean_radius / milli)},
+                     {"rows", rows},
+                     {"grains", grain_data(grains, cube, radius)},
+                     {"flaws", flaw_data(test.appearance.flaws)},
+                     {"cracks", crack_data(cracks, kept, cube, size)}});
+}
+} // namespace feldspar
