@@ -35,7 +35,7 @@ struct alignas(64) Grain
   double x, y, spin, vx, vy, fx, fy, couple;
 };
 
-/// What only the motion of a grain reads. Held grains have no inverse masses and no damping.
+/// Numbers that only the motion of a grain reads. Held grains have no inverse masses and no damping.
 struct Inertia
 {
   double one_over_mass, one_over_moment, damping;
@@ -123,7 +123,7 @@ inline NormalResponse normal_response(const double k_n, const double l, const do
   return {force, (theta < 0.0 ? 1.0 : -1.0) * force * (0.5 * l - h / 3.0), k_n * t * h * low * low / 6.0};
 }
 
-/// Of a segment, over the half length of the face.
+/// Centroid of a segment, over the half length of the face.
 inline double centroid(const std::size_t segment)
 {
   return (double(n_segments) - 1.0 - 2.0 * double(segment)) / double(n_segments);
@@ -168,7 +168,7 @@ struct Body
   double boundary_work = 0.0, damping_work = 0.0, slip_energy = 0.0, released = 0.0;
   std::vector<Crack> cracks;
 
-  // Of a search.
+  // Arrays of a search.
   std::vector<std::uint64_t> joined; ///< pairs with a face, ascending
   std::vector<std::uint32_t> order;  ///< of the grains
   std::vector<Touch> found;

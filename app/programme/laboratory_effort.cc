@@ -47,7 +47,7 @@ double bytes_of_tests(const int dimension, const double n_tests, const double n_
   return at_a_time * n_joints * bytes_of_running_joint(dimension) + n_tests * n_grains * bytes_of_kept_grain(dimension);
 }
 
-/// Of those that stay beside their tests: the only test of a specimen takes it.
+/// Memory of the specimens that stay beside their tests; the only test of a specimen takes it.
 template <int dim>
 double bytes_of_specimens(const std::vector<LaboratoryOrder>& tests, const std::span<const Specimen<dim>> specimens)
 {

@@ -27,7 +27,7 @@ def granite_confined(cells):
 
 def granite_envelopes(cells):
     form, point = cells[0].split(", ")
-    form = {"as the paper": "as_paper", "intact rock": "intact", "general": "general"}[form]
+    form = {"s and a free": "as_paper", "intact": "intact", "a free": "general"}[form]
     fit = read(GRANITE)["fits"][form][point.replace(" ", "_")]
     return [None, number(fit["sigma_ci_Pa"] / 1e6, 1), number(fit["m"], 2), number(fit["s"], 3), number(fit["a"], 3),
             number(fit["r_squared"], 4), number(fit["uniaxial_compressive_strength_Pa"] / 1e6, 1),

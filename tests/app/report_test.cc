@@ -752,7 +752,7 @@ public:
     outcome.output = content(out);
     std::istringstream errors(content(out + ".err"));
     for (std::string line; std::getline(errors, line);)
-      // Where a picture by WebGL is copied, the browser remarks on its own speed.
+      // The browser remarks on its own speed when a picture by WebGL is copied.
       if (line.find(":CONSOLE") != std::string::npos && line.find("GL Driver Message") == std::string::npos)
         outcome.error += line + "\n";
     return outcome;

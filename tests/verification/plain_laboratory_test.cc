@@ -104,7 +104,7 @@ TEST(PlainLaboratory, BreaksTheSameBondsFirstAndHasTheSamePeak)
     plain_peak = std::max(plain_peak, row.stress);
   EXPECT_NEAR(plain_peak, peak, 0.03 * peak); // another order of cracks near the peak
 
-  // What the works miss, over the work of the platens: as little as the engine.
+  // The works miss as little of the work of the platens as those of the engine.
   const plain::Row& end = both.rows.back();
   EXPECT_LT(std::abs(end.boundary_work + both.rows.front().kinetic - end.kinetic - end.strain_energy - end.slip -
                      end.released - end.damping_work),
