@@ -130,7 +130,7 @@ TEST(Lab, GivesTheSameBitsForAnyNumberOfThreadsAndAnyLocale)
   make_german_locale(folder.path());
   ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output one --threads 1 --quiet").exit_code, 0);
   ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output two --threads 2 --quiet",
-                         "PATH=/nowhere LOCPATH=" + folder.path().string() + " LC_ALL=de_DE.UTF-8")
+                         path_without_gnuplot() + " LOCPATH=" + folder.path().string() + " LC_ALL=de_DE.UTF-8")
               .exit_code,
             0);
   EXPECT_EQ(without_times(summary(folder.path() / "one")), without_times(summary(folder.path() / "two")));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/temporary_folder.h"
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -47,11 +49,22 @@ inline Outcome run_feldspar(const std::filesystem::path& folder, const std::stri
   return run_command(folder, environment + " '" FELDSPAR_COMMAND "' " + arguments);
 }
 
-/// The same of a run on whose pictures there is no claim: gnuplot, which it does not find, takes most of the time of a small
-/// run. For runs with --quiet, which do not name what is missing.
+/// Search path of programs, for the shell, in which gnuplot fails at once.
+inline std::string path_without_gnuplot()
+{
+  static const TemporaryFolder programs;
+  static const bool is_linked = [] {
+    std::filesystem::create_symlink("/bin/false", programs.path() / "gnuplot");
+    return true;
+  }();
+  return is_linked ? "PATH=\"" + programs.path().string() + ":$PATH\"" : "";
+}
+
+/// The same of a run on whose pictures there is no claim: gnuplot takes most of the time of a small run. For runs with
+/// --quiet, which do not name what is missing.
 inline Outcome run_without_pictures(const std::filesystem::path& folder, const std::string& arguments)
 {
-  return run_feldspar(folder, arguments, "PATH=/nowhere");
+  return run_feldspar(folder, arguments, path_without_gnuplot());
 }
 
 /// Runs it until a condition of the shell holds in `folder`, then kills it; it may have come to its end before.

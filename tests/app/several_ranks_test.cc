@@ -46,8 +46,8 @@ std::string mpirun(const unsigned int n_ranks)
 {
   return fmt::format("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 HWLOC_COMPONENTS=-gl "
                      "OMPI_MCA_mpi_yield_when_idle=1 "
-                     "mpirun -x PATH=/nowhere -np {} --oversubscribe",
-                     n_ranks);
+                     "mpirun -x {} -np {} --oversubscribe",
+                     tests::path_without_gnuplot(), n_ranks);
 }
 
 std::vector<std::vector<std::string>> table(const fs::path& file)

@@ -65,7 +65,7 @@ void expect_to_run_as_printed(const fs::path& page, const TemporaryFolder& folde
   const TemporaryFolder path;
   // Without pictures, which are the claim of other tests and take most of the time of such small runs; a gnuplot that a page
   // itself calls draws.
-  path.write("feldspar", "#!/bin/sh\nPATH=/nowhere exec '" FELDSPAR_COMMAND "' \"$@\"\n");
+  path.write("feldspar", "#!/bin/sh\n" + path_without_gnuplot() + " exec '" FELDSPAR_COMMAND "' \"$@\"\n");
   fs::permissions(path.path() / "feldspar", fs::perms::owner_all);
   // The mpirun of the tests also works as root, and on cores that are fewer than ranks.
   fs::create_symlink(fs::path(FELDSPAR_SOURCE_DIR) / "tests/app/in_pieces/mpirun", path.path() / "mpirun");

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -84,6 +85,8 @@ void end_with_axial_strain(Chart& chart)
   for (const ChartSeries& series : chart.series)
     for (const ChartPoint& point : series.points)
       {
+        if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
+          continue;
         least = std::min(least, point[0]);
         axial = std::max(axial, point[0]);
         highest = std::max(highest, point[1]);
