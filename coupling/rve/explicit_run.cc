@@ -1,8 +1,8 @@
 #include "coupling/rve/explicit_run.h"
 
-#include "coupling/rve/finite_sample.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/path_checkpoint.h"
+#include "coupling/rve/path_sample.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "coupling/rve/path_run.h"
 
 #include "base/parallel.h"
-#include "coupling/rve/finite_sample.h"
 #include "coupling/rve/path_checkpoint.h"
+#include "coupling/rve/path_sample.h"
 #include "coupling/rve/state_archive.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,11 @@
 
 #include "coupling/rve/homogenisation.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <string_view>
 
 namespace feldspar
@@ -76,4 +79,16 @@ inline constexpr PathColumn<dim> path_columns[] = {
    "magnitude of boundary stress - stress, over that of the stress"},
   {"crack_density_per_m", [](const PathSample<dim>& row) { return row.crack_density; }, InSummary::nowhere,
    "area of broken segments over volume"}};
+
+/// Returns whether all numbers of a row are finite.
+template <int dim>
+bool is_finite(const PathSample<dim>& row)
+{
+  const auto all = [](const auto& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](const double one) { return std::isfinite(one); });
+  };
+  return all(row.strain) && all(row.stress) &&
+         std::all_of(std::begin(path_columns<dim>), std::end(path_columns<dim>),
+                     [&](const PathColumn<dim>& column) { return std::isfinite(column.value(row)); });
+}
 } // namespace feldspar

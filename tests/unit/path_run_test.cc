@@ -2,8 +2,8 @@
 
 #include "base/input_error.h"
 #include "base/parallel.h"
-#include "coupling/rve/finite_sample.h"
 #include "coupling/rve/path_run.h"
+#include "coupling/rve/path_sample.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>

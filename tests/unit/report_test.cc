@@ -458,7 +458,7 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
   // Fewer specimens have no such interval, which is said instead.
   tests.pop_back();
-  holds(said(granite(1.0, 500.0), ""), {"n = 2: 120.0 and 132.0 MPa;", "two specimens are too few to be sure"});
+  holds(said(granite(1.0, 500.0), ""), {": 120.0 and 132.0 MPa, n = 2;", "two specimens are too few to be sure"});
   const std::string on_terminal = as_text(compare(tests, std::nullopt), std::nullopt);
   EXPECT_NE(on_terminal.find("  n = 2: 120.0 and 132.0\n"), std::string::npos) << on_terminal;
   tests.pop_back();
