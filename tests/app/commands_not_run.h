@@ -60,6 +60,8 @@ inline const std::vector<NotRun> commands_not_run{
   {"benchmarks/README.md", "python3 benchmarks/fuzz.py", "an hour; the integration fuzzes for a minute"},
   {"benchmarks/README.md", "apt-get install --no-install-recommends yade esys-particle", "changes the system"},
   {"benchmarks/README.md", "python3 benchmarks/peers/peers.py build/release", "needs yade and esys-particle"},
+  {"benchmarks/README.md", "python3 benchmarks/plain.py build/release",
+   "minutes; PlainLaboratory runs its plain code beside the engine"},
   {"benchmarks/README.md", "build/release/benchmarks/rve_costs > benchmarks/results/rve-costs.json",
    "measures an idle machine; a minute"},
   {"benchmarks/README.md", "python3 benchmarks/rank_queue.py", "minutes; RankQueue runs a piece of it"},
