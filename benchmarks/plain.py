@@ -11,14 +11,14 @@ BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit. Processor time o
 import datetime
 import json
 import os
-import re
 import statistics
 import subprocess
 import sys
 import tempfile
 
+import readme_table
+
 HERE = os.path.dirname(os.path.abspath(__file__))
-README = os.path.join(HERE, "README.md")
 sys.path.insert(0, os.path.join(HERE, "..", "scripts"))
 compare = __import__("compare-speed")
 
@@ -72,23 +72,11 @@ def table(result):
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    is_shown = sys.argv[1] == "--table"
-    instructions = sys.argv[2] if is_shown else compare.vector_instructions(sys.argv[1])
-    results = os.path.join(HERE, "results", f"plain-{instructions}.json")
-    if not is_shown:
+    if sys.argv[1] == "--table":
+        readme_table.keep_and_show("plain", sys.argv[2], table)
+    else:
         result = measured(sys.argv[1], (sys.argv[2:] or ["5"])[0])
-        with open(results, "w", encoding="utf-8") as out:
-            json.dump(result, out, indent=1)
-            out.write("\n")
-        with open(README, encoding="utf-8") as file:
-            text = file.read()
-        marked = re.compile(rf"(<!-- plain {instructions} -->\n).*?(<!-- /plain {instructions} -->)", re.DOTALL)
-        if not marked.search(text):
-            sys.exit(f"{README} has no place for the table of {instructions}; the figures are in {results}")
-        with open(README, "w", encoding="utf-8") as file:
-            file.write(marked.sub(lambda found: found[1] + table(result) + found[2], text))
-    with open(results, encoding="utf-8") as file:
-        print(table(json.load(file)), end="")
+        readme_table.keep_and_show("plain", compare.vector_instructions(sys.argv[1]), table, result)
 
 
 if __name__ == "__main__":

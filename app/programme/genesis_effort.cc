@@ -89,9 +89,9 @@ std::string load_in_words(const double bytes)
   return words;
 }
 
-// The peak of `feldspar specimen` less that of a tiny specimen, over the number of grains, rounded up (75 000 discs, 9000
-// spheres).
-double bytes_of_grain(const int dimension) { return dimension == 2 ? 2e3 : 6e3; }
+// The peak of `feldspar specimen` less that of a tiny specimen, over the number of grains: 970 bytes (79 000 discs) and 2800
+// (24 000 spheres), rounded up.
+double bytes_of_grain(const int dimension) { return dimension == 2 ? 1.2e3 : 3.5e3; }
 
 GenesisEffort expected_effort(const SpecimenParameters& specimen)
 {
@@ -99,10 +99,10 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
     return {}; // it brings its grains
   if (!specimen.packing_file.empty())
     {
-      // Nothing moves. A dense packing has many neighbours: measured on lattices in which each grain has all that it
-      // can (100 000 discs, 40 000 spheres).
+      // Nothing moves. A dense packing has many neighbours: 1180 and 4530 bytes of a grain on lattices in which each has all
+      // that it can (100 000 discs, 40 000 spheres), rounded up.
       const double n = n_lines(specimen.packing_file);
-      return {n, 0.0, n * (specimen.dimension == 2 ? 4e3 : 1.6e4), n * 1e-5};
+      return {n, 0.0, n * (specimen.dimension == 2 ? 1.5e3 : 5.5e3), n * 1e-5};
     }
   // Steps: measured on two seeds each of 100 to 2000 discs and 250 to 4500 spheres, within a factor of two; a cell that
   // repeats itself takes longer to come to rest. Seconds: of these on one core of 2020s' servers.

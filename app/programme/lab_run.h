@@ -30,7 +30,8 @@ std::vector<std::uint64_t> seeds_of(const std::vector<SpecimenOrder>& orders,
   return seeds;
 }
 
-/// Runs tests as run_tests() does, which takes the grains of the specimens, and shows it. `tells_failures`: whether a test that cannot be made is said at once.
+/// Runs tests as run_tests() does, which takes the grains of the specimens, and shows it. `tells_failures`: whether a test
+/// that cannot be made is said at once.
 template <int dim>
 std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<LaboratoryOrder>& tests,
                                         std::vector<Specimen<dim>>& specimens, const std::filesystem::path& folder,

@@ -20,9 +20,9 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
-README = os.path.join(ROOT, "benchmarks", "README.md")
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
+sys.path += [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "benchmarks")]
 compare = __import__("compare-speed")
+readme_table = __import__("readme_table")
 
 TIMES = 3
 BODIES = {"plane": "discs", "space": "spheres"}
@@ -128,22 +128,11 @@ def main():
     is_shown = sys.argv[1:2] == ["--table"]
     if len(sys.argv) != (3 if is_shown else 2):
         sys.exit(__doc__)
-    instructions = sys.argv[2] if is_shown else compare.vector_instructions(sys.argv[1])
-    results = os.path.join(ROOT, "benchmarks", "results", f"peers-{instructions}.json")
-    if not is_shown:
+    if is_shown:
+        readme_table.keep_and_show("peers", sys.argv[2], table)
+    else:
         result = measured(sys.argv[1])
-        with open(results, "w", encoding="utf-8") as out:
-            json.dump(result, out, indent=1)
-            out.write("\n")
-        with open(README, encoding="utf-8") as file:
-            text = file.read()
-        marked = re.compile(rf"(<!-- peers {instructions} -->\n).*?(<!-- /peers {instructions} -->)", re.DOTALL)
-        if not marked.search(text):
-            sys.exit(f"{README} has no place for the table of {instructions}; the figures are in {results}")
-        with open(README, "w", encoding="utf-8") as file:
-            file.write(marked.sub(lambda found: found[1] + table(result) + found[2], text))
-    with open(results, encoding="utf-8") as file:
-        print(table(json.load(file)), end="")
+        readme_table.keep_and_show("peers", compare.vector_instructions(sys.argv[1]), table, result)
 
 
 if __name__ == "__main__":
