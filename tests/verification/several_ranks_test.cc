@@ -3,6 +3,8 @@
 #include "fem/materials/linear_elasticity.h"
 #include "fem/materials/mohr_coulomb.h"
 #include "fem/solid/advance.h"
+#include "fem/solid/cell_balance.h"
+#include "fem/solid/discretisation.h"
 #include "fem/solid/platens.h"
 #include "tests/brittle_point.h"
 #include "tests/fem_samples.h"
@@ -181,6 +183,47 @@ TEST(SeveralRanks, StateGoesFromAnyNumberOfRanksToAnyOther)
   EXPECT_THROW(alone.restore(all), std::invalid_argument);
 }
 
+// Times are given here and not measured: a busy machine may let one of four ranks wait for a core that it shares.
+TEST(SeveralRanks, SharesAreEvenOnceCellsHaveMoved)
+{
+  const auto mesh = eight_rows(MPI_COMM_WORLD);
+  Discretisation<2> elements(mesh, {});
+  CellBalance<2> balance;
+  const auto is_slow = [](const auto& cell) { return cell->center()[1] < 0.025; };
+  const auto round = [&] {
+    std::vector<double> seconds;
+    for (const auto& cell : elements.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        seconds.push_back(is_slow(cell) ? 1.0 : 1e-3);
+    balance.place(elements);
+    balance.note_round(seconds);
+    return balance.strike(MPI_COMM_WORLD);
+  };
+  const auto before = round();
+  // 8 of 32 cells are slow; the first rank has them all, and of two ranks 8 others.
+  const auto n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const double total = 8.0 + 24e-3;
+  EXPECT_NEAR(before.balance.mean, total / n_ranks, 1e-12);
+  EXPECT_NEAR(before.balance.longest, 8.0 + (n_ranks == 2 ? 8e-3 : 0.0), 1e-12);
+  EXPECT_EQ(before.balance.longest_unmoved, before.balance.longest);
+  ASSERT_TRUE(before.balance.moved);
+
+  std::map<std::uint64_t, unsigned int> weights;
+  for (const auto& cell : elements.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      weights.emplace(number_of(cell), before.weights[weights.size()]);
+  const auto weigh = mesh.triangulation->signals.weight.connect(
+    [&](const auto& cell, const auto /*status*/) { return weights.at(number_of(cell)); });
+  mesh.triangulation->repartition();
+  weigh.disconnect();
+  elements.distribute();
+  const auto after = round();
+  EXPECT_NEAR(after.balance.mean, before.balance.mean, 1e-12);
+  EXPECT_NEAR(after.balance.longest_unmoved, before.balance.longest, 1e-12);
+  // A rank may get a cell more than its share, as a piece of the curve ends with a whole cell.
+  EXPECT_LT(after.balance.longest, before.balance.mean + 1.0);
+}
+
 TEST(SeveralRanks, CellsMoveToWhereThereIsTime)
 {
   // The lowest two rows of eight take a millisecond or more a point, so that some ranks have all the work.
@@ -219,16 +262,12 @@ TEST(SeveralRanks, CellsMoveToWhereThereIsTime)
   EXPECT_TRUE(before.moved);
   EXPECT_GT(before.longest, 1.5 * before.mean);
   EXPECT_EQ(before.longest, before.longest_unmoved);
-  // 8 cells of 4 slow points to 2 or 4 ranks; one may get a cell more than its share, as a piece of the curve ends with a
-  // whole cell.
-  const auto n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   EXPECT_LT(n_slow_points(), n_before);
-  EXPECT_LE(n_slow_points(), 4 * (8 / n_ranks + 1));
 
   for (const auto n : pull(together, 4, 10))
     events.push_back(n);
   const Balance after = together.rebalance();
-  EXPECT_LT(after.longest, (1.0 + n_ranks / 8.0 + 0.3) * after.mean); // clocks are not exact
+  EXPECT_LT(after.longest, after.longest_unmoved);
   EXPECT_GT(after.longest_unmoved, 1.5 * after.mean);
   EXPECT_EQ(events, expected);
   expect_same_fields(together, alone);
