@@ -414,7 +414,7 @@ SofteningDemand softening_demand(const Network<dim>& network, const Link<dim>& l
 {
   const auto segment = segment_of(link, network.elements()[i], network.thickness());
   const Bond<double>& bond = network.bond(link.first_segment + i);
-  const double over_opening = std::get<SofteningFlatJoint<dim>>(network.law()).softening_opening();
+  const double over_opening = network.softening_opening().value();
   const auto of =
     softening::demand<dim, double>(segment, bond, over_opening, old.more.front(), link.opening + opening, shear_stress);
   // Ratios as if nothing of the bond had softened: the demand over the strength and the displacement softened so far.
@@ -432,8 +432,8 @@ BondEvent loosen(const Network<dim>& network, ActiveLink<dim>& active, const std
                  const double least_step)
 {
   SegmentHistory<dim>& segment = active.segments[i];
-  const auto* const law = std::get_if<SofteningFlatJoint<dim>>(&network.law());
-  if (!law)
+  const auto softening_opening = network.softening_opening();
+  if (!softening_opening)
     {
       segment.bonded = false;
       if (network.is_linear_while_bonded())
@@ -444,7 +444,7 @@ BondEvent loosen(const Network<dim>& network, ActiveLink<dim>& active, const std
   const auto tau = response(network, active, active.motion).segments[i].shear_stress;
   const softening::State<dim, double> old{tau, true, segment.more};
   const Bond<double>& bond = network.bond(at.link.first_segment + i);
-  const double over_opening = law->softening_opening();
+  const double over_opening = *softening_opening;
   const auto of = softening::demand<dim, double>(at.face, bond, over_opening, segment.more.front(), at.gap(), tau);
   const Asked by = asked(of, segment.more, least_step);
   const double d = std::min(1.0, by.d() + 0.5 * least_step);

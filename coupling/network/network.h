@@ -7,6 +7,7 @@
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -65,6 +66,18 @@ public:
   bool is_linear_while_bonded() const
   {
     return std::visit([](const auto& of_joints) { return of_joints.linear_while_bonded; }, joint_law);
+  }
+  /// Opening at the end of softening, of a law whose bonds soften before they break [m].
+  std::optional<double> softening_opening() const
+  {
+    return std::visit(
+      [](const auto& of_joints) -> std::optional<double> {
+        if constexpr (requires { of_joints.softening_opening(); })
+          return of_joints.softening_opening();
+        else
+          return std::nullopt;
+      },
+      joint_law);
   }
   const Bond<double>& bond(const std::uint32_t segment) const { return bonds[segment]; }
   double thickness() const { return plane_thickness; }

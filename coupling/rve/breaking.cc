@@ -33,9 +33,8 @@ const SegmentHistory<dim>* softened_segment(const NetworkHistory<dim>& history, 
 template <int dim>
 unsigned int most_events_of_a_bond(const Network<dim>& network, const EquilibriumParameters& parameters)
 {
-  const auto* const law = std::get_if<SofteningFlatJoint<dim>>(&network.law());
   constexpr unsigned int at_its_ends = 2; // half a step each
-  return law && law->softening_opening() > 0.0 ? parameters.softening_steps + at_its_ends : 1;
+  return network.softening_opening().value_or(0.0) > 0.0 ? parameters.softening_steps + at_its_ends : 1;
 }
 
 template <int dim>

@@ -142,7 +142,7 @@ template <int dim>
 void Equilibrium<dim>::break_segments(const std::vector<Overload>& overloads, std::vector<BreakEvent<dim>>& events)
 {
   commit();
-  const bool softens = std::holds_alternative<SofteningFlatJoint<dim>>(network.law());
+  const bool softens = network.softening_opening().has_value();
   for (const Overload& overload : overloads)
     {
       const std::uint32_t link = network.link_of_segment(overload.segment);

@@ -40,9 +40,9 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
   };
   const auto is_softened = [&](const SoftenedSegment<dim>& softened) {
     const auto& [damage, by_shear, dissipated] = softened.more;
-    return std::holds_alternative<SofteningFlatJoint<dim>>(network.law()) && softened.segment < network.n_segments() &&
-           is_finite(softened.shear_stress) && is_finite(softened.more) && damage > 0.0 && damage < 1.0 &&
-           by_shear >= 0.0 && by_shear <= 1.0 && dissipated >= 0.0 && !is_unbonded(softened.segment);
+    return network.softening_opening() && softened.segment < network.n_segments() && is_finite(softened.shear_stress) &&
+           is_finite(softened.more) && damage > 0.0 && damage < 1.0 && by_shear >= 0.0 && by_shear <= 1.0 &&
+           dissipated >= 0.0 && !is_unbonded(softened.segment);
   };
   return (state.motions.empty() || state.motions.size() == n_motions<dim> * network.n_grains()) &&
          (state.intact || !state.motions.empty()) && state.stress.allFinite() && state.strain.allFinite() &&
