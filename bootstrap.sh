@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to results.
 #
-#   ./bootstrap.sh demo      packages, build, Beishan granite as a specimen of grains, which is there half way, and as finite
-#                            elements with grains inside, both in one report; ends with its path
+#   ./bootstrap.sh demo      packages, build, three specimens of Beishan granite as grains, then as finite elements with
+#                            grains inside, both in one report; ends with its path
 #   ./bootstrap.sh test      packages, build by clang under the sanitizers, its unit tests and a minute of fuzzing, release
 #                            build by gcc, all tests
 #   ./bootstrap.sh build     packages and release build
@@ -128,15 +128,14 @@ check_other_compiler()
 
 demo()
 {
-  say "packages and build, a specimen of grains broken, the rest of the build, a sample: some eight minutes on two fast cores, up to three times as long on slow ones"
   need_packages "${build_packages[@]}"
   build_release feldspar # without the finite elements, whose headers are half of a build
   local feldspar=build/release/app/feldspar
-  say "breaking Beishan granite, a specimen of grains"
-  "$feldspar" lab examples/beishan-granite/beishan.prm --output demo/direct --force
-  say "its page is demo/direct/report.html; the finite elements come next"
+  say "breaking three specimens of Beishan granite: two minutes on two fast cores"
+  "$feldspar" lab examples/beishan-granite/demo.prm --output demo/direct --force
+  say "the first page is demo/direct/report.html; the finite elements come next"
   build_release
-  say "the same rock as finite elements with grains inside"
+  say "the same rock as finite elements with grains inside: four minutes on two fast cores"
   "$feldspar" multiscale examples/multiscale-beishan/demo.prm --output demo/multiscale --force
   say "both in one report"
   "$feldspar" report demo/direct demo/multiscale --output demo/report --force
@@ -203,7 +202,8 @@ case "${1:-}" in
     build_release
     ;;
   docs)
-    need_packages "${site_packages[@]}"
+    need_packages "${build_packages[@]}" "${site_packages[@]}"
+    build_release feldspar # for the report that the site shows
     scripts/build-site.sh
     ;;
   install) install_feldspar "${@:2}" ;;

@@ -2,12 +2,14 @@
 # Makes the documentation site from the pages of the tree, and prints the path of its first page. A link that leads nowhere
 # is an error.
 #
-#   scripts/build-site.sh [FOLDER]     default: build/site
+#   scripts/build-site.sh [FOLDER [FELDSPAR]]     default: build/site, build/release/app/feldspar
 #
+# The site shows the report of examples/first-run, which the program FELDSPAR makes in seconds.
 # Needs the Debian packages python3-sphinx, python3-myst-parser, furo and libjs-katex.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 site=${1:-$root/build/site}
+feldspar=${2:-$root/build/release/app/feldspar}
 pages=$(mktemp -d)
 trap 'rm -rf "$pages"' EXIT
 cd "$root"
@@ -16,6 +18,8 @@ find README.md CONTRIBUTING.md CHANGELOG.md docs examples benchmarks \
   -not -path 'docs/site/*' -exec cp --parents -t "$pages" {} +
 cp docs/site/conf.py docs/site/index.md "$pages"
 mkdir -p "$site"
+"$feldspar" lab examples/first-run/granite.prm --output "$pages/run" --quiet >/dev/null
+mkdir "$pages/beside" && cp "$pages/run/report.html" "$pages/beside"
 # Sphinx is a package of the distribution, for its own Python.
 /usr/bin/python3 -m sphinx -q -W --keep-going -b html "$pages" "$site"
 echo "$site/index.html"

@@ -15,6 +15,7 @@ html_show_copyright = False
 pygments_style = "friendly"
 
 # KaTeX from the distribution, so that formulas need no network. Sphinx marks them for MathJax, in whose place it stands.
+html_extra_path = ["beside"]
 html_static_path = ["/usr/share/javascript/katex"]
 html_css_files = ["katex.css"]
 html_js_files = [("katex.js", {"defer": "defer", "priority": 100})]

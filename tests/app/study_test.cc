@@ -292,7 +292,7 @@ const std::vector<Piece> pieces{
    {first_seed, hardly_strained},
    Extent::begun},
 
-  {"SampleInTension", "multiscale-beishan/demo", {"demo"}, {in_tension, no_reference}},
+  {"SampleInTension", "multiscale-beishan/demo", {"demo"}, {in_tension, first_seed, no_reference}},
   {"SampleBegun",
    "multiscale-beishan/beishan",
    {"beishan"},
