@@ -151,6 +151,11 @@ private:
       ->type_name("CSV")
       ->allow_extra_args(false);
     command
+      .add_option("--curve-size", report.curve_size,
+                  "diameter and height of its cylinder, for forces and displacements: \"50, 100 mm\"")
+      ->type_name("SIZE")
+      ->needs(command.get_option("--curve"));
+    command
       .add_option("--reference", report.reference, "figures of the rock (default: those the runs were set beside)")
       ->type_name("JSON");
     command

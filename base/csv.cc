@@ -2,32 +2,156 @@
 
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 
+#include <iconv.h>
+
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 namespace feldspar
 {
 namespace
 {
 constexpr std::size_t longest_quote = 200;
+
+/// The text of a file of UTF-16, as UTF-8.
+std::string from_utf16(std::string content, const std::string& name)
+{
+  const auto close = [](iconv_t conversion) { iconv_close(conversion); };
+  const std::unique_ptr<void, decltype(close)> conversion(iconv_open("UTF-8", "UTF-16"), close);
+  std::string result(2 * content.size(), '\0'); // a unit of two bytes becomes three bytes at most
+  char* in = content.data();
+  char* out = result.data();
+  std::size_t n_in = content.size();
+  std::size_t n_out = result.size();
+  if (iconv(conversion.get(), &in, &n_in, &out, &n_out) == std::size_t(-1))
+    throw InputError(fmt::format("{}: begins as UTF-16 and is not; save it as UTF-8", name));
+  result.resize(result.size() - n_out);
+  return result;
+}
+
+/// The file as UTF-8, without a byte-order mark.
+std::unique_ptr<std::istream> open_text(const std::filesystem::path& file)
+{
+  auto stream = std::make_unique<ReadableFile>(file);
+  std::array<char, 3> first{};
+  stream->read(first.data(), first.size());
+  const std::string_view mark(first.data(), std::size_t(stream->gcount()));
+  if (mark.starts_with("\xff\xfe") || mark.starts_with("\xfe\xff"))
+    return std::make_unique<std::istringstream>(from_utf16(content_of(file), file.string()));
+  if (mark != "\xef\xbb\xbf")
+    {
+      stream->clear();
+      stream->seekg(0);
+    }
+  return stream;
+}
+
+/// Tabs and semicolons stand in no name of a column; commas may, as in "Spannung, MPa;Dehnung".
+char separator_of(const std::string_view header)
+{
+  bool is_quoted = false;
+  char found = ',';
+  for (const char c : header)
+    if (c == '"')
+      is_quoted = !is_quoted;
+    else if (!is_quoted && (c == '\t' || (c == ';' && found == ',')))
+      found = c;
+  return found;
+}
+
+/// The cells of a line, trimmed; quotes around them are taken off, and two quotes within them become one in the line.
+std::vector<std::string_view> split(std::string& line, const char separator)
+{
+  std::vector<std::string_view> found;
+  bool is_quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k <= line.size(); ++k)
+    if (k < line.size() && line[k] == '"')
+      is_quoted = !is_quoted;
+    else if (k == line.size() || (!is_quoted && line[k] == separator))
+      {
+        std::string_view cell = trim(std::string_view(line).substr(begin, k - begin));
+        if (cell.size() >= 2 && cell.starts_with('"') && cell.ends_with('"'))
+          {
+            const std::size_t first = std::size_t(cell.data() - line.data()) + 1;
+            std::size_t end = first;
+            for (std::size_t i = first; i < first + cell.size() - 2; ++i)
+              {
+                line[end++] = line[i];
+                if (line[i] == '"')
+                  ++i;
+              }
+            cell = trim(std::string_view(line).substr(first, end - first));
+          }
+        found.push_back(cell);
+        begin = k + 1;
+      }
+  return found;
+}
+
+bool is_blank(const std::vector<std::string_view>& cells)
+{
+  return std::all_of(cells.begin(), cells.end(), [](const std::string_view cell) { return cell.empty(); });
+}
 } // namespace
 
-CsvReader::CsvReader(const std::filesystem::path& file)
+CsvReader::CsvReader(const std::filesystem::path& file, const IsHeader& is_header)
   : name(file.string())
-  , stream(file)
+  , stream(open_text(file))
 {
-  std::getline(stream, line);
-  if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; line.starts_with(byte_order_mark))
-    line.erase(0, byte_order_mark.size());
-  if (line.find(';') != std::string::npos && line.find(',') == std::string::npos)
-    throw InputError(fmt::format("{}:1: columns are separated by commas, not semicolons", name));
-  names = trim(line);
-  columns = split_at_commas(names);
+  constexpr std::size_t longest_preamble = 100;
+  bool is_found = false;
+  is_below_preamble = !is_header;
+  while (!is_found && line_number < longest_preamble && read_line())
+    {
+      if (is_header && line.starts_with('#')) // as numpy.savetxt writes it
+        line.erase(0, 1);
+      const char its_separator = separator_of(line);
+      cells = split(line, its_separator);
+      while (cells.size() > 1 && cells.back().empty())
+        cells.pop_back();
+      is_found = !is_header || is_header(cells);
+      if (!is_found && !columns.empty())
+        continue; // the first line stands for the header where there is none
+      separator = its_separator;
+      header_line = line_number;
+      names = line;
+      columns.clear();
+      for (const std::string_view cell : cells)
+        columns.push_back(
+          cell.empty() ? cell : std::string_view(names).substr(std::size_t(cell.data() - line.data()), cell.size()));
+    }
+  is_below_preamble = true;
+}
+
+/// The next line with something on it, to its end outside of quotes.
+bool CsvReader::read_line()
+{
+  do
+    {
+      if (!std::getline(*stream, line))
+        return false;
+      ++line_number;
+    }
+  while (trim(line).empty() || (is_below_preamble && line.starts_with('#')));
+  const std::size_t first_line = line_number;
+  std::string more;
+  while (is_below_preamble && std::count(line.begin(), line.end(), '"') % 2 == 1)
+    {
+      if (!std::getline(*stream, more))
+        throw InputError(fmt::format("{}:{}: a double quote is opened and not closed", name, first_line));
+      ++line_number;
+      line += '\n' + more;
+    }
+  return true;
 }
 
 bool CsvReader::has(const std::string_view column) const
@@ -39,7 +163,7 @@ std::size_t CsvReader::place(const std::string_view column) const
 {
   const auto found = std::find(columns.begin(), columns.end(), column);
   if (found == columns.end())
-    throw InputError(fmt::format("{}:1: there is no column {}", name, column));
+    throw InputError(fmt::format("{}:{}: there is no column {}", name, header_line, column));
   return std::size_t(found - columns.begin());
 }
 
@@ -47,27 +171,44 @@ bool CsvReader::next()
 {
   do
     {
-      if (!std::getline(stream, line))
+      if (!read_line())
         return false;
-      ++line_number;
+      cells = split(line, separator);
     }
-  while (trim(line).empty());
-  cells = split_at_commas(line);
+  while (is_blank(cells));
+  while (cells.size() > columns.size() && cells.back().empty())
+    cells.pop_back();
   if (cells.size() != columns.size())
     throw InputError(fmt::format("{}:{}: there must be {} values, one for each of {}; found {}", name, line_number,
-                                 columns.size(), excerpt(names, longest_quote), cells.size()));
+                                 columns.size(), excerpt(fmt::format("{}", fmt::join(columns, ",")), longest_quote),
+                                 cells.size()));
   return true;
 }
 
 double CsvReader::number(const std::size_t column) const
 {
+  const std::string_view cell = cells[column];
+  const auto refusal = [&](const std::string& what) {
+    return InputError(fmt::format("{}:{}: {}: {}", name, line_number, excerpt(columns[column]), what));
+  };
+  const char sign = cell.find('.') != std::string_view::npos                       ? '.'
+                    : separator != ',' && cell.find(',') != std::string_view::npos ? ','
+                                                                                   : char(0);
+  if (sign != 0 && decimal_sign != 0 && sign != decimal_sign)
+    throw refusal(fmt::format("{} has another decimal sign than the numbers before it", in_quotes(cell)));
+  if (sign != 0)
+    decimal_sign = sign;
   try
     {
-      return parse_number(cells[column]);
+      if (sign != ',')
+        return parse_number(cell);
+      std::string with_point(cell);
+      std::replace(with_point.begin(), with_point.end(), ',', '.');
+      return parse_number(with_point);
     }
   catch (const InputError& error)
     {
-      throw InputError(fmt::format("{}:{}: {}: {}", name, line_number, excerpt(columns[column]), error.what()));
+      throw refusal(error.what());
     }
 }
 
@@ -91,21 +232,31 @@ double CsvReader::count(const std::size_t column, const double most) const
 std::vector<std::vector<double>> read_csv(const std::filesystem::path& file, const std::string_view header)
 {
   CsvReader table(file);
-  const std::size_t n_columns = split_at_commas(header).size();
-  if (split_at_commas(table.header()) != split_at_commas(header))
-    throw InputError(
-      fmt::format("{}:1: the header is {}; it must be \"{}\"", file.string(), in_quotes(table.header()), header));
+  const auto wanted = split_at_commas(header);
+  const auto& given = table.header();
+  if (!std::all_of(wanted.begin(), wanted.end(), [&](const auto name) { return table.has(name); }) ||
+      std::size_t(std::count_if(given.begin(), given.end(), [](const auto name) { return !name.empty(); })) !=
+        wanted.size())
+    throw InputError(fmt::format("{}:{}: the header is {}; it must be \"{}\"", file.string(), table.line_of_header(),
+                                 in_quotes(fmt::format("{}", fmt::join(given, ","))), header));
   std::vector<std::vector<double>> rows;
   while (table.next())
     {
-      std::vector<double> row;
-      row.reserve(n_columns);
-      for (std::size_t k = 0; k < n_columns; ++k)
-        row.push_back(table.number(k));
-      rows.push_back(std::move(row));
+      std::vector<double>& row = rows.emplace_back();
+      for (const std::string_view name : wanted)
+        row.push_back(table.number(table.place(name)));
     }
   if (rows.empty())
     throw InputError(fmt::format("{}: there is no row below the header", file.string()));
   return rows;
+}
+
+ColumnTitle title_of(const std::string_view column)
+{
+  const char last = column.empty() ? ' ' : column.back();
+  const std::size_t open = last == ']' ? column.rfind('[') : last == ')' ? column.rfind('(') : std::string_view::npos;
+  if (open == std::string_view::npos)
+    return {column, {}};
+  return {trim(column.substr(0, open)), trim(column.substr(open + 1, column.size() - open - 2))};
 }
 } // namespace feldspar

@@ -26,8 +26,8 @@ constexpr double longest_hold = 1e6;
 
 void check_columns(const CsvReader& table, const std::string& file)
 {
-  for (const auto& name : split_at_commas(table.header()))
-    if (std::find(columns.begin(), columns.end(), name) == columns.end())
+  for (const auto& name : table.header())
+    if (!name.empty() && std::find(columns.begin(), columns.end(), name) == columns.end())
       throw InputError(fmt::format("{}:1: {} is no column of a loading table; they are {}", file, in_quotes(name),
                                    fmt::join(columns, ", ")));
 }

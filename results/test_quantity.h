@@ -65,12 +65,14 @@ enum class QuantityOf
   effort    ///< of no meaning for the rock
 };
 
-/// Data beyond its curve that a quantity is read from; a curve measured in a laboratory has none.
+/// Data that a quantity is read from and that not every curve measured in a laboratory has: none has cracks or motion.
 enum class NeedsBesidesCurve
 {
   nothing,
   cracks,
-  motion
+  motion,
+  lateral_strain,
+  fall ///< after the peak
 };
 
 /// The column of a quantity in the table of tests on a page; files have all.

@@ -62,6 +62,7 @@ struct ReportOptions
 {
   std::vector<std::filesystem::path> result_folders;
   std::vector<std::filesystem::path> curves; ///< measured in a laboratory
+  std::string curve_size;                    ///< diameter and height of their cylinders; empty: not given
   std::optional<std::filesystem::path> reference;
   std::optional<std::filesystem::path> output;
   bool force = false;

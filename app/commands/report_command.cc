@@ -16,6 +16,8 @@ int run_report(const ReportOptions& options)
   ReportOrder order{options.result_folders, options.curves, options.reference, {}};
   if (order.result_folders.empty() && order.curves.empty())
     throw InputError("report needs the folders of results, or --curve with a measured one; see feldspar report --help");
+  if (!options.curve_size.empty())
+    order.curve_size = parse_cylinder_size(options.curve_size);
   // The report of one folder goes into it, beside its results.
   const bool beside_results = order.result_folders.size() == 1 && !options.output;
   if (options.reference)

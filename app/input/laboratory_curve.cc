@@ -13,6 +13,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,20 +25,82 @@ namespace feldspar
 namespace
 {
 constexpr Dimension strain{"a strain", "1", "0.1 %"};
-constexpr double steady = 0.05; // by so much the pressure may wander from its mean
+constexpr Dimension force{"a force", "N", "200 kN"};
+constexpr double steady = 0.05;      // by so much the pressure may wander from its mean up to the peak
+constexpr double noise_share = 0.01; // of the peak stress: less is the noise of a pressure cell in the open
 
-/// A quantity that the file must have.
-struct Quantity
+/// Quantities that a curve may have; compression positive, a specimen that widens has negative lateral strains.
+enum class Measured : std::size_t
 {
-  std::string_view name;
-  const Dimension* dimension;
+  axial_strain,
+  axial_displacement,
+  axial_stress,
+  deviator,
+  axial_force,
+  lateral_strain,
+  volumetric_strain,
+  confining_pressure
 };
 
-constexpr std::array<Quantity, 4> quantities{Quantity{"axial_strain", &strain}, Quantity{"lateral_strain", &strain},
-                                             Quantity{"axial_stress", &stress},
-                                             Quantity{"confining_pressure", &stress}};
-constexpr std::string_view right_header =
-  "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
+struct Quantity
+{
+  const Dimension* dimension;
+  std::vector<std::string_view> names; ///< in small letters, words between spaces
+};
+
+/// In the order of Measured.
+const std::array<Quantity, 8>& quantities()
+{
+  static const std::array<Quantity, 8> all{
+    Quantity{&strain, {"axial strain", "strain"}},
+    Quantity{&length, {"axial displacement", "displacement", "shortening"}},
+    Quantity{&stress, {"axial stress", "stress"}},
+    Quantity{&stress, {"deviator stress", "deviatoric stress", "differential stress"}},
+    Quantity{&force, {"axial force", "axial load", "force", "load"}},
+    Quantity{&strain, {"lateral strain", "radial strain", "transverse strain", "circumferential strain"}},
+    Quantity{&strain, {"volumetric strain"}},
+    Quantity{&stress, {"confining pressure", "confining stress", "cell pressure", "confinement"}}};
+  return all;
+}
+
+/// A name as `quantities` has them: "Axial_Strain" and "axial strain" are one.
+std::string plain_name(const std::string_view name)
+{
+  std::string plain = in_small_letters(trim(name));
+  std::replace(plain.begin(), plain.end(), '_', ' ');
+  return plain;
+}
+
+/// Name and unit of a column; beside brackets also "Axial strain / %" and "Axial strain, %" have a unit.
+ColumnTitle title_of_curve(const std::string_view column)
+{
+  const ColumnTitle title = title_of(column);
+  const std::size_t mark = column.find_last_of("/,");
+  if (!title.unit.empty() || mark == std::string_view::npos)
+    return title;
+  // "axial strain mm/mm" has no mark before its unit
+  return {trim(column.substr(0, mark)), trim(column.substr(mark + 1))};
+}
+
+std::optional<Measured> measured_in(const std::string_view column)
+{
+  const std::string name = plain_name(title_of_curve(column).name);
+  for (std::size_t q = 0; q < quantities().size(); ++q)
+    if (std::ranges::find(quantities()[q].names, name) != quantities()[q].names.end())
+      return Measured(q);
+  return std::nullopt;
+}
+
+/// A unit in SI.
+double unit_in_si(const std::string_view unit, const Dimension& dimension)
+{
+  if (&dimension == &strain && (unit == "-" || unit == "1" || unit == "mm/mm" || unit == "m/m"))
+    return 1.0;
+  for (const std::string_view micro : {"µε", "με", "microstrain", "µm/m", "um/m"})
+    if (&dimension == &strain && unit == micro)
+      return 1e-6;
+  return parse_quantity(fmt::format("1 {}", unit), dimension);
+}
 
 /// The column of a quantity in the file, and its unit in SI.
 struct QuantityColumn
@@ -44,61 +109,180 @@ struct QuantityColumn
   double unit;
 };
 
-std::array<QuantityColumn, quantities.size()> columns_of(const std::string& header, const std::filesystem::path& file)
+/// The rows of a file, in SI.
+class CurveTable
 {
-  const auto refuse = [&](const std::string& what) {
-    return InputError(fmt::format("{}:1: {}; the header must be as in \"{}\"", file.string(), what, right_header));
-  };
-  std::array<std::optional<QuantityColumn>, quantities.size()> found;
-  const auto columns = split_at_commas(header);
-  for (std::size_t c = 0; c < columns.size(); ++c)
+public:
+  explicit CurveTable(const std::filesystem::path& of_file)
+    : file(of_file.string())
+    , table(of_file, [](const auto& names) {
+      return std::ranges::count_if(names, [](const auto name) { return measured_in(name).has_value(); }) >= 2;
+    })
+  {
+    bool units_are_below = false;
+    for (std::size_t c = 0; c < table.header().size(); ++c)
+      if (const auto quantity = measured_in(table.name_of(c)))
+        {
+          if (column(*quantity))
+            throw refusal(fmt::format("{} is there twice", quantities()[std::size_t(*quantity)].names.front()));
+          const std::string_view unit = title_of_curve(table.name_of(c)).unit;
+          units_are_below = units_are_below || unit.empty();
+          columns[std::size_t(*quantity)] = {c, unit.empty() ? 0.0 : unit_of(c, unit, *quantity)};
+        }
+    if (units_are_below && table.next())
+      for (std::size_t q = 0; q < columns.size(); ++q)
+        if (columns[q] && columns[q]->unit == 0.0)
+          {
+            const std::string_view cell = table.text(columns[q]->column);
+            const std::string_view unit = title_of(cell).unit.empty() ? cell : title_of(cell).unit;
+            if (unit.empty() || is_decimal_number(unit))
+              throw refusal(fmt::format("{} has no unit", in_quotes(table.name_of(columns[q]->column))));
+            columns[q]->unit = unit_of(columns[q]->column, unit, Measured(q));
+          }
+  }
+
+  /// Columns whose names are those of no quantity.
+  std::vector<std::string> unread() const
+  {
+    std::vector<std::string> names;
+    for (const std::string_view name : table.header())
+      if (!name.empty() && !measured_in(name))
+        names.push_back(in_quotes(name));
+    return names;
+  }
+
+  bool has(const Measured quantity) const { return column(quantity).has_value(); }
+  bool next() { return table.next(); }
+
+  /// Value in the row; none where the file does not have the quantity.
+  std::optional<double> value(const Measured quantity) const
+  {
+    const auto& place = column(quantity);
+    if (!place)
+      return std::nullopt;
+    const double in_si = place->unit * table.number(place->column);
+    if (!std::isfinite(in_si))
+      throw InputError(fmt::format("{}:{}: {}: {} is beyond the range of numbers", file, table.line_of_row(),
+                                   table.name_of(place->column), in_quotes(table.text(place->column))));
+    return in_si;
+  }
+
+  InputError refusal(const std::string& what) const
+  {
+    constexpr std::string_view right_header =
+      "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
+    return InputError(
+      fmt::format("{}:{}: {}; the header must be as in \"{}\", of which lateral strain and pressure may "
+                  "be left out",
+                  file, table.line_of_header(), what, right_header));
+  }
+
+private:
+  const std::optional<QuantityColumn>& column(const Measured quantity) const { return columns[std::size_t(quantity)]; }
+
+  double unit_of(const std::size_t of_column, const std::string_view unit, const Measured quantity) const
+  {
+    try
+      {
+        return unit_in_si(unit, *quantities()[std::size_t(quantity)].dimension);
+      }
+    catch (const InputError& error)
+      {
+        throw refusal(fmt::format("{}: {}", in_quotes(table.name_of(of_column)), error.what()));
+      }
+  }
+
+  std::string file;
+  CsvReader table;
+  std::array<std::optional<QuantityColumn>, 8> columns;
+};
+
+/// Reads the rows; stresses and strains tension positive, a lateral strain that is not there is NaN.
+std::vector<CurveSample> rows_of(CurveTable& table, const std::optional<CylinderSize>& size)
+{
+  using enum Measured;
+  if (!table.has(axial_strain) && !table.has(axial_displacement))
+    throw table.refusal("there is no column axial_strain, nor axial_displacement");
+  if (!table.has(axial_stress) && !table.has(deviator) && !table.has(axial_force))
+    throw table.refusal("there is no column axial_stress, nor axial_force");
+  if (!size && (!table.has(axial_strain) || (!table.has(axial_stress) && !table.has(deviator))))
+    throw table.refusal("forces and displacements need the size of the specimen, as --curve-size \"50, 100 mm\" "
+                        "gives diameter and height");
+  std::vector<CurveSample> rows;
+  while (table.next())
     {
-      const std::string_view column = columns[c];
-      const std::size_t bracket = std::min(column.find('['), column.size());
-      const std::string_view name = trim(column.substr(0, bracket));
-      const auto quantity =
-        std::find_if(quantities.begin(), quantities.end(), [&](const Quantity& one) { return one.name == name; });
-      if (quantity == quantities.end())
-        continue; // a column more does no harm
-      if (bracket == column.size() || !column.ends_with(']'))
-        throw refuse(fmt::format("{} has no unit in square brackets", in_quotes(column)));
-      const std::string_view unit = trim(column.substr(bracket + 1, column.size() - bracket - 2));
-      const bool is_plain = quantity->dimension == &strain && (unit == "-" || unit == "1");
-      auto& place = found[std::size_t(quantity - quantities.begin())];
-      if (place)
-        throw refuse(fmt::format("{} is there twice", name));
-      try
-        {
-          place = QuantityColumn{c, is_plain ? 1.0 : parse_quantity(fmt::format("1 {}", unit), *quantity->dimension)};
-        }
-      catch (const InputError& error)
-        {
-          throw refuse(fmt::format("{}: {}", in_quotes(column), error.what()));
-        }
+      const double pressure = table.value(confining_pressure).value_or(0.0);
+      const double shortening =
+        table.has(axial_strain) ? *table.value(axial_strain) : *table.value(axial_displacement) / size->height;
+      const double pressed = table.has(axial_stress) ? *table.value(axial_stress)
+                             : table.has(deviator)   ? *table.value(deviator) + pressure
+                                                     : *table.value(axial_force) / size->section();
+      double lateral = std::numeric_limits<double>::quiet_NaN();
+      if (table.has(lateral_strain))
+        lateral = *table.value(lateral_strain);
+      else if (table.has(volumetric_strain))
+        lateral = 0.5 * (*table.value(volumetric_strain) - shortening);
+      CurveSample& row = rows.emplace_back();
+      row.step = rows.size() - 1;
+      row.axial_strain = row.gauge_axial_strain = -shortening;
+      row.gauge_lateral_strain = -lateral;
+      row.gauge_volumetric_strain = row.gauge_axial_strain + 2.0 * row.gauge_lateral_strain; // a cylinder
+      row.axial_stress = -pressed;
+      row.lateral_stress = -pressure;
     }
-  std::array<QuantityColumn, quantities.size()> all{};
-  for (std::size_t q = 0; q < quantities.size(); ++q)
-    if (!found[q])
-      throw refuse(fmt::format("there is no column {}", quantities[q].name));
-    else
-      all[q] = *found[q];
-  return all;
+  return rows;
 }
 
-/// The mean pressure; 0 of a uniaxial test.
-double steady_pressure(const std::vector<double>& pressures, const std::filesystem::path& file)
+/// Brings the pressure of a curve to the one of its test: rows before it was reached and after it was lost are left out.
+/// Returns a sentence for each part that was, without its full stop.
+std::vector<std::string> hold_pressure(TestRecord& record, const std::string& file)
 {
-  double mean = 0.0;
-  for (const double pressure : pressures)
-    mean += pressure / double(pressures.size());
-  for (std::size_t k = 0; k < pressures.size(); ++k)
-    if (std::abs(pressures[k] - mean) > steady * std::abs(mean) || pressures[k] < 0.0)
+  auto& curve = record.curve;
+  std::vector<std::string> remarks;
+  const std::size_t peak = std::size_t(std::ranges::min_element(curve, {}, &CurveSample::axial_stress) - curve.begin());
+  const double highest = std::abs(curve[peak].axial_stress);
+  if (std::ranges::all_of(
+        curve, [&](const CurveSample& row) { return std::abs(row.lateral_stress) <= noise_share * highest; }))
+    {
+      for (CurveSample& row : curve)
+        row.lateral_stress = 0.0;
+      return remarks;
+    }
+  std::vector<double> up_to_peak;
+  for (std::size_t k = 0; k <= peak; ++k)
+    up_to_peak.push_back(-curve[k].lateral_stress);
+  std::ranges::nth_element(up_to_peak, up_to_peak.begin() + std::ptrdiff_t(up_to_peak.size() / 2));
+  const double median = up_to_peak[up_to_peak.size() / 2];
+  const auto is_held = [&](const CurveSample& row) {
+    return std::abs(-row.lateral_stress - median) <= steady * median;
+  };
+  std::size_t begin = 0;
+  while (begin < peak && !is_held(curve[begin]))
+    ++begin;
+  std::size_t end = peak;
+  while (end < curve.size() && is_held(curve[end]))
+    ++end;
+  for (std::size_t k = begin; k <= peak; ++k)
+    if (!is_held(curve[k]) || !(median > 0.0))
       throw InputError(
-        fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in the mean; it must be the "
-                    "same within 5 % all through the test, and not negative",
-                    file.string(), pressures[k] / 1e6, k + 1, mean / 1e6));
-  return std::round(mean); // to the pascal, as sums are not exact
+        fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in most rows; once reached it "
+                    "must be the same within 5 % up to the peak, and not negative",
+                    file, -curve[k].lateral_stress / 1e6, k + 1, median / 1e6));
+  if (begin > 0)
+    remarks.push_back(
+      fmt::format("{}: the first {} rows, before the confining pressure was reached, are left out", file, begin));
+  if (end < curve.size())
+    remarks.push_back(fmt::format("{}: the last {} rows, in which the confining pressure was not held, are left out",
+                                  file, curve.size() - end));
+  curve.erase(curve.begin() + std::ptrdiff_t(end), curve.end());
+  curve.erase(curve.begin(), curve.begin() + std::ptrdiff_t(begin));
+  double mean = 0.0;
+  for (const CurveSample& row : curve)
+    mean -= row.lateral_stress / double(curve.size());
+  record.confining_pressure = std::round(mean); // to the pascal, as sums are not exact
+  return remarks;
 }
+
 /// Counts the strains of a curve from where its load begins, and drops the rows before: an extensometer has no zero of its
 /// own, and a displacement gauge sees platens come to the specimen. Returns a sentence on what was changed or could not be,
 /// without its full stop; empty if nothing was.
@@ -138,61 +322,42 @@ std::string count_strains_from_first_load(TestRecord& record, const std::size_t 
     reading > no_load
       ? fmt::format("; the load of {:.2g} MPa that is read before stays in the stresses", reading * at_peak / 1e6)
       : "";
-  if (std::max(std::abs(zero.axial_strain), std::abs(zero.gauge_lateral_strain)) < least_shift)
+  const double lateral = std::isfinite(zero.gauge_lateral_strain) ? zero.gauge_lateral_strain : 0.0;
+  if (std::max(std::abs(zero.axial_strain), std::abs(lateral)) < least_shift)
     return "";
   return fmt::format(
     "{}: strains are counted from row {} below the header, where the load begins; {:.4g} % of axial and "
     "{:.4g} % of lateral strain were taken off every row{}",
-    file, start + 1, -100.0 * zero.axial_strain, -100.0 * zero.gauge_lateral_strain, offset);
+    file, start + 1, -100.0 * zero.axial_strain, -100.0 * lateral, offset);
 }
-} // namespace
-
-Series read_laboratory_curve(const std::filesystem::path& file)
+/// Reads a curve as a finished test; remarks go to `remarks`.
+FinishedTest read_curve_of_test(const std::filesystem::path& file, const std::optional<CylinderSize>& size,
+                                std::vector<std::string>& remarks)
 {
-  CsvReader table(file);
-  const auto columns = columns_of(table.header(), file);
-
+  const std::string shown = printable(file.string());
+  CurveTable table(file);
+  if (const auto unread = table.unread(); !unread.empty())
+    remarks.push_back(fmt::format("{}: the columns {} are not read", shown, fmt::join(unread, ", ")));
   FinishedTest test;
+  TestRecord& record = test.record;
   const std::string name = plot::file_name(file.stem().string());
   test.name = test.group = name.empty() ? "measured" : name;
-  std::vector<double> pressures;
-  while (table.next())
-    {
-      const auto value = [&](const std::size_t q) {
-        const double in_si = columns[q].unit * table.number(columns[q].column);
-        if (!std::isfinite(in_si))
-          throw InputError(fmt::format("{}:{}: {}: {} is beyond the range of numbers", file.string(),
-                                       table.line_of_row(), quantities[q].name,
-                                       in_quotes(table.text(columns[q].column))));
-        return in_si;
-      };
-      CurveSample sample; // tension positive
-      sample.step = test.record.curve.size();
-      sample.axial_strain = sample.gauge_axial_strain = -value(0);
-      sample.gauge_lateral_strain = -value(1);
-      sample.gauge_volumetric_strain = sample.gauge_axial_strain + 2.0 * sample.gauge_lateral_strain; // a cylinder
-      sample.axial_stress = -value(2);
-      sample.lateral_stress = -value(3);
-      pressures.push_back(value(3));
-      test.record.curve.push_back(sample);
-    }
-  if (pressures.empty())
+  record.curve = rows_of(table, size);
+  if (record.curve.empty())
     throw InputError(fmt::format("{}: there is no row below the header", file.string()));
-  test.record.confining_pressure = steady_pressure(pressures, file);
-  const double least_stress =
-    std::ranges::min(test.record.curve, {}, &CurveSample::axial_stress).axial_stress; // tension positive
-  if (-least_stress <= test.record.confining_pressure && test.record.confining_pressure > 0.0)
+  std::ranges::move(hold_pressure(record, shown), std::back_inserter(remarks));
+  auto& curve = record.curve;
+  const double least_stress = std::ranges::min(curve, {}, &CurveSample::axial_stress).axial_stress; // tension positive
+  if (-least_stress <= record.confining_pressure && record.confining_pressure > 0.0)
     throw InputError(fmt::format("{}: axial_stress reaches {:g} MPa only, under a confining_pressure of {:g} MPa; it "
-                                 "must be the whole axial stress, not the part beyond the pressure",
-                                 file.string(), -least_stress / 1e6, test.record.confining_pressure / 1e6));
-  test.record.kind = test.record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
-  // Laboratories choose where a curve ends: right after the peak, or when it has risen again.
-  test.record.peak_demands = {.least_fall = 0.0, .may_end_rising = true};
-  const auto peak = peak_row(test.record);
+                                 "must be the whole axial stress; give the part beyond the pressure as deviator_stress",
+                                 file.string(), -least_stress / 1e6, record.confining_pressure / 1e6));
+  record.kind = record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
+  // Laboratories choose where a curve ends: at the peak, right after it, or when it has risen again.
+  record.peak_demands = {.least_fall = 0.0, .may_end_rising = true};
+  const auto peak = peak_row(record);
   if (!peak)
-    throw InputError(
-      fmt::format("{}: axial_stress never peaks: it must rise and fall again, compression positive", file.string()));
-  const auto& curve = test.record.curve;
+    throw InputError(fmt::format("{}: axial_stress never rises; compression is positive", file.string()));
   if (curve[*peak].axial_strain >= curve.front().axial_strain)
     throw InputError(
       fmt::format("{}: axial_strain does not grow up to the peak; shortening is positive", file.string()));
@@ -207,18 +372,51 @@ Series read_laboratory_curve(const std::filesystem::path& file)
                                        file.string()));
         break;
       }
+  const bool ends_at_peak = *peak + 1 == curve.size();
+  if (ends_at_peak)
+    remarks.push_back(fmt::format("{}: the record ends at its highest stress, which is taken as the strength", shown));
+  if (const std::string on_strains = count_strains_from_first_load(record, *peak, shown); !on_strains.empty())
+    remarks.push_back(on_strains);
 
-  const std::string on_strains = count_strains_from_first_load(test.record, *peak, printable(file.string()));
-
-  test.results = evaluate(test.record);
+  test.results = evaluate(record);
+  const bool has_lateral = std::isfinite(curve.front().gauge_lateral_strain);
   for (const TestQuantity& quantity : test_quantities)
-    if (quantity.figure() && quantity.needs != NeedsBesidesCurve::nothing)
-      test.results.*quantity.figure() = {std::nullopt, quantity.needs == NeedsBesidesCurve::cracks
-                                                         ? "a measured curve counts no cracks"
-                                                         : "not known of a measured curve"};
-  Series series{file.filename().string(), SeriesKind::laboratory_curve, {}, {test}, {}};
-  if (!on_strains.empty())
-    series.problems.push_back(on_strains);
+    if (const auto figure = quantity.figure())
+      {
+        const NeedsBesidesCurve needs = quantity.needs;
+        const char* const reason =
+          needs == NeedsBesidesCurve::cracks                           ? "a measured curve counts no cracks"
+          : needs == NeedsBesidesCurve::motion                         ? "not known of a measured curve"
+          : needs == NeedsBesidesCurve::lateral_strain && !has_lateral ? "the measured curve has no lateral strain"
+          : needs == NeedsBesidesCurve::fall && ends_at_peak           ? "the measured curve ends at its highest stress"
+                                                                       : nullptr;
+        if (reason != nullptr)
+          test.results.*figure = {std::nullopt, reason};
+      }
+  return test;
+}
+} // namespace
+
+double CylinderSize::section() const { return std::numbers::pi / 4.0 * diameter * diameter; }
+
+CylinderSize parse_cylinder_size(const std::string_view text)
+{
+  const std::vector<double> sizes = parse_quantities(text, length);
+  if (sizes.size() != 2 || !(sizes[0] > 0.0) || !(sizes[1] > 0.0))
+    throw InputError(
+      fmt::format("--curve-size is {}; it must be diameter and height, as in \"50, 100 mm\"", in_quotes(text)));
+  return {sizes[0], sizes[1]};
+}
+
+Series read_laboratory_curves(const std::vector<std::filesystem::path>& files, const std::optional<CylinderSize>& size)
+{
+  Series series{files.size() == 1 ? files.front().filename().string() : "measured curves",
+                SeriesKind::laboratory_curve,
+                {},
+                {},
+                {}};
+  for (const auto& file : files)
+    series.tests.push_back(read_curve_of_test(file, size, series.problems));
   return series;
 }
 } // namespace feldspar

@@ -3,13 +3,30 @@
 #include "results/runs/series.h"
 
 #include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 namespace feldspar
 {
-/// Reads a curve measured in a laboratory: CSV with the columns axial_strain, lateral_strain, axial_stress and
-/// confining_pressure in any order, each with its unit in square brackets: `axial_stress [MPa]` (docs/report.md).
-/// Compression is positive, so that a specimen that widens has negative lateral strains. It is evaluated as a test of
-/// the model is; what needs grains has none. Strains are counted from where the load begins; the problems of the series say
-/// so where that changes them. Throws InputError, one line with file and line.
-Series read_laboratory_curve(const std::filesystem::path& file);
+/// A cylinder that a laboratory has tested [m].
+struct CylinderSize
+{
+  double diameter;
+  double height;
+
+  double section() const; ///< [m^2]
+};
+
+/// Reads diameter and height, as in `50, 100 mm`. Throws InputError.
+CylinderSize parse_cylinder_size(std::string_view text);
+
+/// Reads curves measured in a laboratory, each a test of one series: tables (base/csv.h) with axial strain and axial stress,
+/// and lateral strain and confining pressure where they were measured, each with its unit: `axial_stress [MPa]`
+/// (docs/laboratory-data.md). Forces and displacements need the size of the specimen. Compression is positive, so that a
+/// specimen that widens has negative lateral strains. Curves are evaluated as tests of the model are; what a curve lacks has
+/// its reason. Strains are counted from where the load begins; the problems of the series say what was changed or left out.
+/// Throws InputError, one line with file and line.
+Series read_laboratory_curves(const std::vector<std::filesystem::path>& files,
+                              const std::optional<CylinderSize>& size = {});
 } // namespace feldspar

@@ -51,9 +51,8 @@ std::vector<PathLeg<dim>> legs_along_direction(const StrainPathParameters& path)
 
 /// Returns which columns are stresses. Each component has one column, in the order of Voigt.
 template <int dim>
-std::array<bool, n_voigt<dim>> stress_columns(const std::string& file, const std::string& header)
+std::array<bool, n_voigt<dim>> stress_columns(const std::string& file, const std::vector<std::string_view>& columns)
 {
-  const auto columns = split_at_commas(header);
   std::string strains, names;
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
@@ -77,7 +76,7 @@ std::array<bool, n_voigt<dim>> stress_columns(const std::string& file, const std
   if (!good)
     throw InputError(fmt::format("{}:1: the header is {}; it must be \"{}\", or stress_.._Pa in place of strain_.. "
                                  "for some of {}",
-                                 file, in_quotes(header), strains, names));
+                                 file, in_quotes(fmt::format("{}", fmt::join(columns, ","))), strains, names));
   return is_stress;
 }
 

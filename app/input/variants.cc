@@ -7,11 +7,13 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/text.h"
+#include "results/quantities.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -81,6 +83,13 @@ void check_fit(const VariantParameters& wanted)
     throw InputError(fmt::format("must be at most {} variants", most_variants));
 }
 
+/// Returns whether tests.csv has such a column beside the entries that vary.
+bool is_of_tests_table(const std::string_view column)
+{
+  return column == "name" || column == "kind" || column == "seed" ||
+         std::ranges::any_of(test_quantities, [&](const TestQuantity& quantity) { return quantity.name == column; });
+}
+
 void name_for_files(std::vector<Variant>& all, const bool by_number)
 {
   if (all.size() < 2)
@@ -99,28 +108,46 @@ void read_variant_table(VariantParameters& wanted)
   if (!wanted.entries.empty() || !wanted.values.empty())
     throw InputError("excludes Entry and Values, which are given too; keep one of them");
   CsvReader table(wanted.table);
-  std::string_view names = table.header();
-  for (;;)
+  std::vector<std::pair<std::size_t, std::string_view>> columns; // place and unit
+  bool has_results = false;
+  for (std::size_t k = 0; k < table.header().size(); ++k)
     {
-      const std::size_t comma = names.find(',');
-      std::string_view name = trim(names.substr(0, comma));
+      const auto [name, unit] = title_of(table.name_of(k));
+      if (name.empty()) // row numbers of a data frame
+        continue;
+      if (is_of_tests_table(table.name_of(k)))
+        {
+          has_results = true;
+          continue;
+        }
       try
         {
           wanted.entries.push_back(varied_entry(name));
         }
       catch (const InputError& error)
         {
-          throw InputError(fmt::format("{}:1: {} {}", wanted.table, in_quotes(name), error.what()));
+          throw InputError(
+            fmt::format("{}:{}: {} {}", wanted.table, table.line_of_header(), in_quotes(name), error.what()));
         }
-      if (comma == std::string_view::npos)
-        break;
-      names.remove_prefix(comma + 1);
+      columns.emplace_back(k, unit == "-" ? "" : unit);
     }
+  if (columns.empty())
+    throw InputError(fmt::format("{}:{}: there is no column of an entry", wanted.table, table.line_of_header()));
   wanted.values.resize(wanted.entries.size());
   wanted.in_step = true;
+  std::set<std::vector<std::string>> rows; // a table of tests has a row for each test of a variant
   while (table.next())
-    for (std::size_t k = 0; k < wanted.entries.size(); ++k)
-      wanted.values[k].emplace_back(table.text(k));
+    {
+      std::vector<std::string> row;
+      for (const auto& [column, unit] : columns)
+        row.push_back(unit.empty() || !is_decimal_number(table.text(column))
+                        ? std::string(table.text(column))
+                        : fmt::format("{} {}", table.text(column), unit));
+      if (!rows.insert(row).second && has_results)
+        continue;
+      for (std::size_t k = 0; k < row.size(); ++k)
+        wanted.values[k].push_back(std::move(row[k]));
+    }
   if (wanted.values.front().empty())
     throw InputError(fmt::format("{}: there is no row below the header", wanted.table));
 }

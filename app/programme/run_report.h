@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/input/laboratory_curve.h"
 #include "app/screen/progress.h"
 #include "results/fits/run_envelopes.h"
 #include "results/runs/run.h"
@@ -20,6 +21,7 @@ struct ReportOrder
   std::optional<std::filesystem::path> reference; ///< else that of the first folder that has one
   std::filesystem::path output;                   ///< exists
   RunEnvelopes envelopes{}; ///< of the one folder of a run that has just fitted them; what is not there is fitted
+  std::optional<CylinderSize> curve_size{}; ///< of the cylinders whose curves have forces or displacements
 };
 
 /// Reads, and writes the report, until is_over() says that no more pictures are to be drawn. Returns what is missing in it and

@@ -2,14 +2,12 @@
 
 #include "base/input_error.h"
 #include "base/parameter_id.h"
-#include "base/quoted.h"
-#include "base/readable_file.h"
+#include "dem/genesis/packing_table.h"
 #include "dem/specimen/pair_search.h"
 #include "dem/specimen/periodic_images.h"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -20,31 +18,6 @@ namespace
 {
 constexpr double largest_overlap = 0.05; // of the smaller radius
 
-/// The numbers of one line, which must be exactly n.
-std::vector<double> numbers(const std::string& line, const std::size_t n, const std::string& where)
-{
-  std::vector<double> values;
-  const char* at = line.data();
-  const char* const end = line.data() + line.size();
-  const auto skip_blanks = [&] {
-    while (at != end && (*at == ' ' || *at == '\t' || *at == '\r'))
-      ++at;
-  };
-  for (skip_blanks(); at != end; skip_blanks())
-    {
-      double value = 0.0;
-      const auto [rest, error] = std::from_chars(at, end, value);
-      if (error != std::errc() || !std::isfinite(value))
-        throw InputError(fmt::format("{}: {} holds something that is not a number; a line is {}", where,
-                                     in_quotes(line), n == 3 ? "x y radius" : "x y z radius"));
-      values.push_back(value);
-      at = rest;
-    }
-  if (values.size() != n)
-    throw InputError(fmt::format("{}: {} numbers found; a line is {}, in metres", where, values.size(),
-                                 n == 3 ? "x y radius" : "x y z radius"));
-  return values;
-}
 /// Throws InputError for two grains that overlap by more than is allowed; of a periodic packing across its sides too.
 template <int dim>
 void check_overlaps(const Grains<dim>& own, const SpecimenParameters& wanted, const std::vector<std::size_t>& line_of,
@@ -114,23 +87,14 @@ void check_walls(const Grains<dim>& grains, const SpecimenParameters& wanted, co
 template <int dim>
 Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<void()>& check)
 {
-  ReadableFile file(wanted.packing_file);
   std::vector<double> radii;
   Components<dim> positions;
   std::vector<std::size_t> line_of;
-  std::string line;
-  constexpr std::size_t lines_between_checks = 10000;
-  for (std::size_t n = 1; std::getline(file, line); ++n)
+  for (const auto& [line, values, radius] : read_packing_table(wanted.packing_file, dim, check))
     {
-      if (n % lines_between_checks == 0)
-        check();
-      line.erase(std::min(line.find('#'), line.size()));
-      if (line.find_first_not_of(" \t\r") == std::string::npos)
-        continue;
-      const std::string where = fmt::format("{}:{}", wanted.packing_file, n);
-      const auto values = numbers(line, dim + 1, where);
-      if (values[dim] <= 0.0)
-        throw InputError(fmt::format("{}: radius {} m; a radius must be greater than 0", where, values[dim]));
+      const std::string where = fmt::format("{}:{}", wanted.packing_file, line);
+      if (radius <= 0.0)
+        throw InputError(fmt::format("{}: radius {} m; a radius must be greater than 0", where, radius));
       for (int c = 0; c < dim; ++c)
         {
           const double length = c == dim - 1 ? wanted.height : wanted.width;
@@ -138,11 +102,11 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
             throw InputError(fmt::format("{}: {} = {} m lies outside the specimen; allowed are 0 to {} m", where,
                                          "xyz"[c], values[c], length));
           // Before it has an image in each of very many boxes.
-          if (const double overlap = 2.0 * values[dim] - length;
-              is_periodic(wanted.shape) && overlap > largest_overlap * values[dim])
+          if (const double overlap = 2.0 * radius - length;
+              is_periodic(wanted.shape) && overlap > largest_overlap * radius)
             throw InputError(fmt::format("{}: overlaps its own image by {:.3g} m across the sides of the periodic box; "
                                          "allowed are {:.0f} % of the radius, {:.3g} m",
-                                         where, overlap, 100.0 * largest_overlap, largest_overlap * values[dim]));
+                                         where, overlap, 100.0 * largest_overlap, largest_overlap * radius));
           // The two sides of a periodic box are one place.
           positions[c].push_back(is_periodic(wanted.shape) && values[c] == length ? 0.0 : values[c]);
         }
@@ -151,8 +115,8 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
             r > 0.5 * wanted.width)
           throw InputError(fmt::format("{}: lies {} m from the axis of the cylinder; allowed are 0 to {} m", where, r,
                                        0.5 * wanted.width));
-      radii.push_back(values[dim]);
-      line_of.push_back(n);
+      radii.push_back(radius);
+      line_of.push_back(line);
     }
   if (radii.size() < 2)
     throw InputError(fmt::format("{}: {} grains; a packing has at least two", wanted.packing_file, radii.size()));

@@ -7,9 +7,8 @@
 
 namespace feldspar
 {
-/// Reads a packing made elsewhere: lines `x y [z] radius` in metres, in the box [0, width] × [0, height]; # begins a
-/// comment. Throws InputError with the line of whatever is not so, or of grains that overlap by more than 5 % of the
-/// smaller radius. `check` is called now and then and may throw to end it.
+/// Reads a packing made elsewhere (packing_table.h), in the box [0, width] × [0, height]. Throws InputError with the line of
+/// whatever is not so, or of grains that overlap by more than 5 % of the smaller radius. `check` is called now and then and may throw to end it.
 template <int dim>
 Grains<dim> read_packing(
   const SpecimenParameters& wanted, const std::function<void()>& check = [] {});

@@ -89,8 +89,10 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
                    of_cells),
     entry::integer("Cells along", &P::cells_along, {'[', 1.0, 1000.0, ']'}, "the same along the axis of the tests",
                    of_cells_along),
-    entry::file("Packing file", &P::packing_file,
-                "grains packed elsewhere, a line `x y radius` in metres each; none makes a packing", of_body),
+    entry::file(
+      "Packing file", &P::packing_file,
+      "grains packed elsewhere: lines `x y radius` in metres, a table with column names, or a file of LAMMPS; none makes a packing",
+      of_body),
     entry::file(
       "Specimen file", &P::specimen_file,
       "a finished specimen.h5 to be tested, or, for `feldspar rve`, a representative volume "

@@ -129,7 +129,8 @@ std::vector<std::size_t> compared_series(const Findings& findings)
                                      [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
   std::vector<std::size_t> compared;
   for (std::size_t n = 0; n < findings.all.size(); ++n)
-    if (!any_model || findings.all[n].kind != SeriesKind::laboratory_curve)
+    // A single curve is a series of figures of its own; several are the rock beside which the model stands.
+    if (!any_model || findings.all[n].kind != SeriesKind::laboratory_curve || findings.all[n].tests.size() > 1)
       compared.push_back(n);
   return compared;
 }

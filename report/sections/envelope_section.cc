@@ -225,9 +225,9 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
     }
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
-      if (findings.all[n].kind == SeriesKind::laboratory_curve)
-        continue;
       const StrengthEnvelopes& envelopes = findings.envelopes[n];
+      if (findings.all[n].kind == SeriesKind::laboratory_curve && !make_an_envelope(envelopes.data))
+        continue;
       if (!findings.is_in_full(n))
         {
           if (make_an_envelope(envelopes.data))

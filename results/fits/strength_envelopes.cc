@@ -106,11 +106,13 @@ std::string table(const std::vector<Row>& rows)
   return result;
 }
 
-/// Fit with the tension point and more points than parameters; null if there is none.
+/// Fit with the tension point, where the strengths have one, and more points than parameters; null if there is none.
 const HoekBrownFit* fit_with_freedom(const StrengthEnvelopes& envelopes, const HoekBrownForm form)
 {
   for (const auto& pair : envelopes.hoek_brown)
-    if (const auto& fit = pair.with_tension_point.fit; pair.form == form && fit && fit->quality.degrees_of_freedom > 0)
+    if (const auto& fit =
+          envelopes.data.tensile_strength ? pair.with_tension_point.fit : pair.without_tension_point.fit;
+        pair.form == form && fit && fit->quality.degrees_of_freedom > 0)
       return &*fit;
   return nullptr;
 }

@@ -23,9 +23,9 @@ struct StrengthEnvelopes
   std::vector<HoekBrownPair> hoek_brown; ///< as_paper, intact, general
   FitOrReason<MohrCoulombFit> mohr_coulomb;
 
-  /// The envelope that stands for these strengths where only one is drawn: the intact form with the tension point. Where
-  /// that misses its points and the general form does by less than half as much, the latter. Null where the intact form
-  /// has no freedom left.
+  /// The envelope that stands for these strengths where only one is drawn: the intact form, with the tension point of
+  /// strengths that have one. Where that misses its points and the general form does by less than half as much, the
+  /// latter. Null where the intact form has no freedom left.
   const HoekBrownFit* representative() const;
 };
 

@@ -115,7 +115,7 @@ CalibrationRecord from_json(const Json& json, const std::string& file)
 void read_samples(CalibrationRecord& record, const std::filesystem::path& file)
 {
   CsvReader reader(file);
-  for (const std::string_view column : split_at_commas(reader.header()))
+  for (const std::string_view column : reader.header())
     record.sampled.push_back(printable(column));
   record.samples.resize(record.sampled.size());
   while (reader.next())

@@ -366,7 +366,10 @@ const std::vector<FuzzedReader>& fuzzed_readers()
     {"reference",
      [](Content content, Folder folder) { read_reference(write(folder / "r.json", content), test_kinds()); }},
     {"table", [](Content content, Folder folder) { read_csv(write(folder / "t.csv", content), "normal_m,shear_m"); }},
-    {"curve", [](Content content, Folder folder) { read_laboratory_curve(write(folder / "c.csv", content)); }},
+    {"curve",
+     [](Content content, Folder folder) {
+       read_laboratory_curves({write(folder / "c.csv", content)}, CylinderSize{0.05, 0.1});
+     }},
     {"path",
      [](Content content, Folder folder) {
        StrainPathParameters path;

@@ -1,5 +1,6 @@
 #include "base/input_error.h"
 #include "base/random.h"
+#include "dem/genesis/packing_table.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/neighbours.h"
 #include "tests/unit/small_specimen.h"
@@ -252,6 +253,68 @@ TEST(PackingImport, TakesGrainsAsTheyAre)
   const auto specimen = make_specimen<2>(file.wanted(), flat_joint, {}, 1);
   EXPECT_EQ(specimen.grains.size(), 3u);
   EXPECT_EQ(specimen.joints.size(), 2u);
+}
+
+// Three grains in a row that touch, as other programs write them: each file gives the same grains, to the last bit.
+TEST(PackingImport, ReadsTheFormsOfOtherPrograms)
+{
+  const auto grains_of = [](const std::string& text, const int dim) {
+    const PackingFile file(text);
+    std::vector<double> numbers;
+    for (const auto& grain : read_packing_table(file.wanted().packing_file, dim, [] {}))
+      {
+        numbers.insert(numbers.end(), grain.position.begin(), grain.position.end());
+        numbers.push_back(grain.radius);
+      }
+    return numbers;
+  };
+  const std::vector<double> in_plane{0.002, 0.005, 0.001, 0.004, 0.005, 0.001, 0.006, 0.004, 0.0005};
+  const std::vector<double> in_space{0.002, 0.005, 0.003, 0.001, 0.004, 0.005,
+                                     0.003, 0.001, 0.006, 0.004, 0.002, 0.0005};
+  for (const char* const text :
+       {"0.002 0.005 0.001\n0.004 0.005 0.001\n0.006 0.004 0.0005\n",
+        "#format x_y_z_r\n0.002\t0.005\t0\t0.001\n0.004\t0.005\t0\t0.001\n0.006\t0.004\t0\t0.0005\n", // YADE
+        "0 0.002 0.005 0.001\n1 0.004 0.005 0.001\n2 0.006 0.004 0.0005\n",
+        "7 0.002 0.005 0.1 0.001\n8 0.004 0.005 0.1 0.001\n9 0.006 0.004 0.1 0.0005\n",
+        "id,x [mm],y [mm],d [mm],group\n1,2,5,2,rock\n2,4,5,2,rock\n3,6,4,1,rock\n",
+        "\"ID\";\"Radius\";\"Y\";\"X\"\n1;0.001;0.005;0.002\n2;0.001;0.005;0.004\n3;0.0005;0.004;0.006\n",
+        "start_x_m,start_y_m,start_z_m,x_m,y_m,z_m,radius_m,fragment,mineral_grain\n"
+        "0.002,0.005,0,1,1,1,0.001,0,0\n0.004,0.005,0,1,1,1,0.001,0,0\n0.006,0.004,0,1,1,1,0.0005,0,0\n"})
+    EXPECT_EQ(grains_of(text, 2), in_plane) << text;
+  for (const char* const text :
+       {"0.002 0.005 0.003 0.001\n0.004 0.005 0.003 0.001\n0.006 0.004 0.002 0.0005\n",
+        "1 0.002 0.005 0.003 0.001\n2 0.004 0.005 0.003 0.001\n3 0.006 0.004 0.002 0.0005\n",
+        // The last step of a dump counts.
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
+        "ITEM: ATOMS id type radius x y z\n1 1 1 1 1 1\n"
+        "ITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS ff ff ff\n0 0.01\n0 0.01\n0 0.01\n"
+        "ITEM: ATOMS id type radius x y z\n1 1 0.001 0.002 0.005 0.003\n2 1 0.001 0.004 0.005 0.003\n"
+        "3 1 0.0005 0.006 0.004 0.002\n",
+        "LAMMPS data file via write_data\n\n3 atoms\n1 atom types\n\n0 0.01 xlo xhi\n0 0.01 ylo yhi\n0 0.01 zlo zhi\n\n"
+        "Atoms # sphere\n\n1 1 0.002 2500 0.002 0.005 0.003 0 0 0\n2 1 0.002 2500 0.004 0.005 0.003 0 0 0\n"
+        "3 1 0.001 2500 0.006 0.004 0.002 0 0 0\n\nVelocities\n\n1 0 0 0 0 0 0\n"})
+    EXPECT_EQ(grains_of(text, 3), in_space) << text;
+  // A box that begins elsewhere.
+  EXPECT_EQ(grains_of("# LAMMPS data\n-0.5 0.5 xlo xhi\n-0.25 0.25 ylo yhi\nAtoms\n\n1 1 0.5 1 0.25 0.125 0\n", 2),
+            (std::vector<double>{0.75, 0.375, 0.25}));
+}
+
+TEST(PackingImport, RefusesFormsThatItCannotRead)
+{
+  EXPECT_NE(
+    PackingFile("id x y\n1 2 3\n").refusal().find(":1: there is no column radius; there must be x, y and radius"),
+    std::string::npos);
+  EXPECT_NE(PackingFile("x [in] y r\n1 2 3\n").refusal().find("\"in\" is not a unit of length"), std::string::npos);
+  EXPECT_NE(PackingFile("ITEM: ATOMS id xs ys radius\n1 0.1 0.2 0.001\n").refusal().find("there is no column x"),
+            std::string::npos);
+  EXPECT_NE(PackingFile("LAMMPS\nAtoms # bond\n1 1 1 1 1 1 1\n").refusal().find("it must be sphere"),
+            std::string::npos);
+  EXPECT_NE(PackingFile("0.002 0.005 0.1 0.001\n0.004 0.005 0.2 0.001\n")
+              .refusal()
+              .find("4 numbers found; a line is x y radius"),
+            std::string::npos);
+  EXPECT_NE(PackingFile("0.002 0.005 0.001\n0.004 0.005\n").refusal().find(":2: 2 numbers found; there must be 3"),
+            std::string::npos);
 }
 
 TEST(PackingImport, RefusesWordsMissingNumbersStrayAndOverlappingGrains)

@@ -706,6 +706,14 @@ TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
   folder.write("plan.csv", "Flat joint/Friction, Flat joint/Bond cohesion\n0.2, 80 MPa\n0.6, 0.12 GPa\n");
   EXPECT_EQ(labels("set Table = plan.csv\n"), (std::vector{named("0.2", "80 MPa"), named("0.6", "0.12 GPa")}));
 
+  // Units in the header, as in tests.csv of a run, which has a row for each test and columns of results.
+  const std::vector<std::string> two{named("0.2", "80 MPa"), named("0.6", "120 MPa")};
+  folder.write("units.csv", "\"\",Flat joint/Friction,Flat joint/Bond cohesion [MPa]\n1,0.2,80\n2,0.6,\"120\"\n");
+  EXPECT_EQ(labels("set Table = units.csv\n"), two);
+  folder.write("tests.csv", "name,kind,seed,Flat joint/Friction,Flat joint/Bond cohesion [MPa],peak_stress_Pa\n"
+                            "a,direct_tension,1,0.2,80,1e7\na,direct_tension,2,0.2,80,\nb,direct_tension,1,0.6,120,\n");
+  EXPECT_EQ(labels("set Table = tests.csv\n"), two);
+
   const auto all = variants(read_input(folder.write("a.prm", "subsection Variants\nset Table = plan.csv\nend\n")));
   EXPECT_EQ(all[1].input.flat_joint.friction, 0.6);
   EXPECT_EQ(all[1].input.flat_joint.bond_cohesion, 120e6);

@@ -89,7 +89,9 @@ Pictures single_test_pictures(const Series& series)
       if (test.record.curve.empty())
         continue; // it could not be made, or its curve is missing
       const bool is_measured = series.kind == SeriesKind::laboratory_curve;
-      const std::string title = is_measured ? fmt::format("{}: {}", series.label, title_of(test)) : title_of(test);
+      const std::string title =
+        is_measured ? fmt::format("{}: {}", series.tests.size() > 1 ? test.name : series.label, title_of(test))
+                    : title_of(test);
       pictures.push_back({.name = test.name + "_stress_strain",
                           .caption = title,
                           .alternative = fmt::format("Stress against {}{}, {}.", test.record.kind.channel.strain_name,

@@ -1,0 +1,335 @@
+#include "dem/genesis/packing_table.h"
+
+#include "base/csv.h"
+#include "base/input_error.h"
+#include "base/quoted.h"
+#include "base/readable_file.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace feldspar
+{
+namespace
+{
+struct NumberedLine
+{
+  std::size_t line;
+  std::vector<double> values;
+};
+
+/// Numbers of a file, and what it says about them.
+struct PackingLines
+{
+  std::vector<std::string> names; ///< of the columns; empty where the file has none
+  std::size_t line_of_names = 1;
+  std::array<double, 3> origin{}; ///< [m]
+  std::vector<NumberedLine> rows;
+};
+
+/// The words of a line; a unit in brackets belongs to the word before it.
+std::vector<std::string_view> words_of(const std::string_view line)
+{
+  constexpr std::string_view separators = " \t\r,;";
+  std::vector<std::string_view> words;
+  for (std::size_t at = line.find_first_not_of(separators); at != std::string_view::npos;
+       at = line.find_first_not_of(separators, at))
+    {
+      const std::size_t end = std::min(line.find_first_of(separators, at), line.size());
+      std::string_view word = line.substr(at, end - at);
+      if (!words.empty() && (word.front() == '[' || word.front() == '('))
+        words.back() = line.substr(std::size_t(words.back().data() - line.data()),
+                                   end - std::size_t(words.back().data() - line.data()));
+      else
+        words.push_back(word);
+      at = end;
+    }
+  return words;
+}
+
+std::string_view without_quotes(const std::string_view word)
+{
+  return word.size() >= 2 && word.front() == '"' && word.back() == '"' ? word.substr(1, word.size() - 2) : word;
+}
+
+std::optional<double> as_number(const std::string_view word)
+{
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+/// Reads a file line by line.
+class PackingReader
+{
+public:
+  PackingReader(const std::filesystem::path& of_file, const std::function<void()>& its_check)
+    : name(of_file.string())
+    , stream(of_file)
+    , check(its_check)
+  {
+  }
+
+  PackingLines read()
+  {
+    PackingLines all;
+    bool is_first = true;
+    for (bool is_there = next(); is_there;)
+      {
+        if (words.front() == "ITEM:")
+          {
+            is_there = read_item(all);
+            is_first = false;
+            continue;
+          }
+        if (is_first && line.find("LAMMPS") != std::string::npos)
+          {
+            read_data(all);
+            return all;
+          }
+        if (is_first && !as_number(without_quotes(words.front())))
+          name_columns(all, words);
+        else
+          all.rows.push_back(numbers());
+        is_first = false;
+        is_there = next();
+      }
+    return all;
+  }
+
+private:
+  /// The next line with something on it.
+  bool next(const bool with_comments = false)
+  {
+    constexpr std::size_t lines_between_checks = 10000;
+    do
+      {
+        if (!std::getline(stream, line))
+          return false;
+        if (++number % lines_between_checks == 0)
+          check();
+        if (number == 1 && line.find("LAMMPS") != std::string::npos) // the title of a data file may begin with #
+          std::replace(line.begin(), line.end(), '#', ' ');
+        if (!with_comments)
+          line.erase(std::min(line.find('#'), line.size()));
+        words = words_of(line);
+      }
+    while (words.empty());
+    return true;
+  }
+
+  NumberedLine numbers() const
+  {
+    NumberedLine row{number, {}};
+    for (const std::string_view word : words)
+      {
+        const auto value = as_number(without_quotes(word));
+        // Words may stand in columns that are not asked for, such as the material of a grain.
+        row.values.push_back(value.value_or(std::nan("")));
+      }
+    return row;
+  }
+
+  static void name_columns(PackingLines& all, const std::vector<std::string_view>& names)
+  {
+    all.names.clear();
+    for (const std::string_view one : names)
+      all.names.emplace_back(without_quotes(one));
+  }
+
+  /// A part of a dump; returns whether another follows.
+  bool read_item(PackingLines& all)
+  {
+    const bool has_box = words.size() > 2 && words[1] == "BOX";
+    const bool has_atoms = words.size() > 2 && words[1] == "ATOMS";
+    if (has_box && words.size() > 3 && words[3] == "xy")
+      throw InputError(fmt::format("{}:{}: a box that is not at right angles is not read", name, number));
+    if (has_atoms)
+      {
+        name_columns(all, {words.begin() + 2, words.end()});
+        all.line_of_names = number;
+        all.rows.clear(); // of the step before
+      }
+    for (std::size_t k = 0; next();)
+      {
+        if (words.front() == "ITEM:")
+          return true;
+        if (has_box && k < 3)
+          all.origin[k++] = as_number(words.front()).value_or(0.0);
+        if (has_atoms)
+          all.rows.push_back(numbers());
+      }
+    return false;
+  }
+
+  void read_data(PackingLines& all)
+  {
+    all.names = {"id", "type", "diameter", "density", "x", "y", "z"};
+    bool is_in_atoms = false;
+    while (next(true))
+      {
+        if (!is_in_atoms && words.front() == "Atoms")
+          {
+            is_in_atoms = true;
+            if (words.size() > 2 && words[2] != "sphere")
+              throw InputError(fmt::format("{}:{}: atoms have the style {}; it must be sphere, which has diameters",
+                                           name, number, in_quotes(words[2])));
+            continue;
+          }
+        for (std::size_t axis = 0; !is_in_atoms && axis < 3; ++axis)
+          if (words.size() > 3 && words[2] == std::array{"xlo", "ylo", "zlo"}[axis])
+            all.origin[axis] = as_number(words.front()).value_or(0.0);
+        if (is_in_atoms && !as_number(words.front()))
+          return; // the next section
+        if (is_in_atoms)
+          all.rows.push_back(numbers());
+      }
+  }
+
+  std::string name;
+  ReadableFile stream;
+  const std::function<void()>& check;
+  std::string line;
+  std::vector<std::string_view> words;
+  std::size_t number = 0;
+};
+
+/// A column of a table, and its unit in metres.
+struct PackingColumn
+{
+  std::size_t place;
+  double unit;
+};
+
+/// The column that has the first of these names that there is; none if there is no such.
+std::optional<PackingColumn> column_of(const PackingLines& lines, const std::vector<std::string_view>& names,
+                                       const std::string& file)
+{
+  for (const std::string_view wanted : names)
+    for (std::size_t c = 0; c < lines.names.size(); ++c)
+      {
+        const auto [name, unit] = title_of(lines.names[c]);
+        if (in_small_letters(name) != wanted)
+          continue;
+        for (const auto& [symbol, metres] :
+             {std::pair(std::string_view(), 1.0), {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"µm", 1e-6}})
+          if (unit == symbol)
+            return PackingColumn{c, metres};
+        throw InputError(fmt::format("{}:{}: {} is not a unit of length; it must be m, cm, mm or um", file,
+                                     lines.line_of_names, in_quotes(unit)));
+      }
+  return std::nullopt;
+}
+
+/// Columns of x, y[, z] and the radius by their names.
+std::vector<PackingColumn> columns_by_name(const PackingLines& lines, const int dim, const std::string& file)
+{
+  std::vector<PackingColumn> columns;
+  const std::vector<std::string_view> of_axis[] = {{"start_x_m", "x", "x_m", "position_x"},
+                                                   {"start_y_m", "y", "y_m", "position_y"},
+                                                   {"start_z_m", "z", "z_m", "position_z"}};
+  const auto missing = [&](const std::string_view what) {
+    return InputError(fmt::format("{}:{}: there is no column {}; there must be x, y{} and radius or diameter", file,
+                                  lines.line_of_names, what, dim == 3 ? ", z" : ""));
+  };
+  for (int axis = 0; axis < dim; ++axis)
+    if (const auto column = column_of(lines, of_axis[axis], file))
+      columns.push_back(*column);
+    else
+      throw missing(of_axis[axis][1]);
+  if (const auto radius = column_of(lines, {"radius", "r", "radius_m"}, file))
+    columns.push_back(*radius);
+  else if (const auto diameter = column_of(lines, {"diameter", "d", "diameter_m"}, file))
+    columns.push_back({diameter->place, 0.5 * diameter->unit});
+  else
+    throw missing("radius");
+  return columns;
+}
+
+/// Columns of x, y[, z] and the radius by their order.
+std::vector<PackingColumn> columns_by_order(const std::vector<NumberedLine>& rows, const int dim,
+                                            const std::string& file)
+{
+  const std::size_t n = rows.front().values.size();
+  const auto is_numbered = [&] {
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (const double number = rows[k].values.front();
+          number != std::floor(number) || (k > 0 && number <= rows[k - 1].values.front()))
+        return false;
+    return true;
+  };
+  const auto is_level = [&](const std::size_t column) {
+    return std::ranges::all_of(rows, [&](const NumberedLine& row) {
+      return row.values.size() == n && row.values[column] == rows.front().values[column];
+    });
+  };
+  std::size_t first = 0;
+  bool has_height = dim == 3;
+  const auto n_wanted = std::size_t(dim) + 1;
+  if (n == n_wanted + 1 && is_numbered()) // no packing has one grain a metre
+    first = 1;
+  else if (n == n_wanted + 1 && dim == 2 && is_level(2))
+    has_height = true;
+  else if (n == n_wanted + 2 && dim == 2 && is_numbered() && is_level(3))
+    {
+      first = 1;
+      has_height = true;
+    }
+  else if (n != n_wanted)
+    throw InputError(
+      fmt::format("{}:{}: {} numbers found; a line is {}, in metres, perhaps after the number of the grain{}", file,
+                  rows.front().line, n, dim == 2 ? "x y radius" : "x y z radius",
+                  dim == 2 ? ", and with one z for all before the radius" : ""));
+  std::vector<PackingColumn> columns;
+  for (int axis = 0; axis < dim; ++axis)
+    columns.push_back({first + std::size_t(axis), 1.0});
+  columns.push_back({first + (has_height ? 3 : 2), 1.0});
+  return columns;
+}
+} // namespace
+
+std::vector<PackedGrain> read_packing_table(const std::filesystem::path& path, const int dim,
+                                            const std::function<void()>& check)
+{
+  const std::string file = path.string();
+  const PackingLines lines = PackingReader(path, check).read();
+  if (lines.rows.empty())
+    return {};
+  const auto columns =
+    lines.names.empty() ? columns_by_order(lines.rows, dim, file) : columns_by_name(lines, dim, file);
+  std::vector<PackedGrain> grains;
+  grains.reserve(lines.rows.size());
+  for (const auto& [line, values] : lines.rows)
+    {
+      const std::size_t n_values = lines.names.empty() ? lines.rows.front().values.size() : lines.names.size();
+      // Atoms of LAMMPS may have the numbers of the boxes that they have crossed behind them.
+      if (values.size() < n_values || (lines.names.empty() && values.size() > n_values))
+        throw InputError(fmt::format("{}:{}: {} numbers found; there must be {}, as in the lines before", file, line,
+                                     values.size(), n_values));
+      PackedGrain grain{line, {}, 0.0};
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        {
+          const double value = columns[c].unit * values[columns[c].place];
+          if (!std::isfinite(value))
+            throw InputError(fmt::format("{}:{}: {} is not a number", file, line,
+                                         c + 1 == columns.size() ? "the radius" : std::string(1, "xyz"[c])));
+          if (c + 1 == columns.size())
+            grain.radius = value;
+          else
+            grain.position.push_back(value - lines.origin[c]);
+        }
+      grains.push_back(std::move(grain));
+    }
+  return grains;
+}
+} // namespace feldspar

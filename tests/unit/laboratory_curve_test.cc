@@ -1,0 +1,279 @@
+// Tables as testing machines, spreadsheets and programs for statistics write them, and the curves that they hold.
+
+#include "app/input/laboratory_curve.h"
+#include "base/csv.h"
+#include "base/input_error.h"
+#include "results/fits/strength_data.h"
+#include "results/fits/strength_envelopes.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+using tests::TemporaryFolder;
+
+constexpr double E = 50e3;  // [MPa]
+constexpr double ucs = 120; // [MPa]
+constexpr double nu = 0.25;
+
+/// One row of a curve that is elastic up to its peak and falls to a half at 1.2 times the strain there; strains in per cent,
+/// stresses in MPa.
+struct Row
+{
+  double strain;
+  double lateral;
+  double stress;
+};
+
+std::vector<Row> rows(const bool falls = true)
+{
+  std::vector<Row> all;
+  for (int k = 0; k <= 120; ++k)
+    all.push_back({k / E * 100.0, -nu * k / E * 100.0, double(k)});
+  for (int k = 1; falls && k <= 24; ++k)
+    all.push_back({(120.0 + k) / E * 100.0, -nu * (120.0 + 5.0 * k) / E * 100.0, 120.0 - 2.5 * k});
+  return all;
+}
+
+std::string table(const std::string& header, const std::function<std::string(const Row&)>& line,
+                  const bool falls = true)
+{
+  std::string text = header + "\n";
+  for (const Row& row : rows(falls))
+    text += line(row) + "\n";
+  return text;
+}
+
+std::string with_commas(std::string number)
+{
+  std::replace(number.begin(), number.end(), '.', ',');
+  return number;
+}
+
+std::string in_utf16(const std::string& text)
+{
+  std::string wide = "\xff\xfe";
+  for (const char c : text)
+    wide += {c, '\0'};
+  return wide;
+}
+
+class LaboratoryCurve : public testing::Test
+{
+protected:
+  Series read(const std::string& text, const std::optional<CylinderSize>& size = {}) const
+  {
+    return read_laboratory_curves({folder.write("core.csv", text)}, size);
+  }
+
+  /// Strength 120 MPa, modulus 50 GPa, and Poisson's ratio 0.25 where the curve has lateral strains.
+  void expect_rock(const std::string& text, const bool has_lateral, const std::optional<CylinderSize>& size = {}) const
+  {
+    SCOPED_TRACE(text.substr(0, 200));
+    const Series series = read(text, size);
+    ASSERT_EQ(series.tests.size(), 1u);
+    const TestResults& results = series.tests.front().results;
+    ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
+    EXPECT_NEAR(*results.peak_stress.value, 1e6 * ucs, 1.0);
+    ASSERT_TRUE(results.youngs_modulus_initial.value) << results.youngs_modulus_initial.reason;
+    EXPECT_NEAR(*results.youngs_modulus_initial.value, 1e6 * E, 1e-6 * 1e6 * E);
+    ASSERT_EQ(results.poissons_ratio_initial.value.has_value(), has_lateral);
+    if (has_lateral)
+      EXPECT_NEAR(*results.poissons_ratio_initial.value, nu, 1e-6);
+    else
+      for (const Figure* figure : {&results.poissons_ratio_initial, &results.poissons_ratio_secant,
+                                   &results.crack_damage_stress, &results.crack_initiation_stress_lateral})
+        {
+          EXPECT_FALSE(figure->value);
+          EXPECT_EQ(figure->reason, "the measured curve has no lateral strain");
+        }
+  }
+
+  void refuse(const std::string& text, const std::string& words, const std::optional<CylinderSize>& size = {}) const
+  {
+    try
+      {
+        read(text, size);
+        ADD_FAILURE() << "read: " << text.substr(0, 200);
+      }
+    catch (const InputError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      }
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(LaboratoryCurve, IsReadAsMachinesAndSpreadsheetsWriteIt)
+{
+  const auto three = [](const Row& row) {
+    return fmt::format("{:.9f},{:.9f},{:.9f}", row.strain, row.lateral, row.stress);
+  };
+  const auto german = [](const Row& row) {
+    return with_commas(fmt::format("{:.9f};{:.9f};{:.9f};", row.strain, row.lateral, row.stress));
+  };
+  const std::string plain = table("axial_strain [%],lateral_strain [%],axial_stress [MPa]", three);
+  expect_rock(plain, true);
+  expect_rock("\xef\xbb\xbf" + plain, true);
+  // R and pandas: quotes, and a column of row numbers without a name.
+  int k = 0;
+  expect_rock(table("\"\",\"Axial Strain (%)\",\"Radial strain (%)\",\"Axial stress (MPa)\"",
+                    [&](const Row& row) { return fmt::format("\"{}\",{}", ++k, three(row)); }),
+              true);
+  // A German spreadsheet: semicolons, decimal commas, line ends of Windows, an empty column at the end.
+  expect_rock(table("Axial Strain [%];Lateral Strain [%];Axial Stress [N/mm2];\r", german), true);
+  expect_rock(in_utf16(table("Axial Strain [%];Lateral Strain [%];Axial Stress [MPa];", german)), true);
+  // A testing machine: a preamble, a line of units, tabs.
+  expect_rock("Test: UCS; granite\nOperator:\tA. N.\nDate:\t3.4.2019\n\n" +
+                table("Time\tAxial strain\tLateral strain\tAxial stress\ns\t%\t%\tMPa",
+                      [](const Row& row) {
+                        return fmt::format("1.0\t{:.9f}\t{:.9f}\t{:.9f}", row.strain, row.lateral, row.stress);
+                      }),
+              true);
+  // numpy.savetxt, and units behind a slash.
+  expect_rock(table("# Axial strain / %,Lateral strain / microstrain,Axial stress / MPa",
+                    [](const Row& row) {
+                      return fmt::format("{:.9f},{:.9f},{:.9f}", row.strain, 1e4 * row.lateral, row.stress);
+                    }),
+              true);
+  // Volumetric strain in place of the lateral one.
+  expect_rock(table("axial_strain [%],volumetric_strain [%],axial_stress [MPa]",
+                    [](const Row& row) {
+                      return fmt::format("{:.9f},{:.9f},{:.9f}", row.strain, row.strain + 2.0 * row.lateral,
+                                         row.stress);
+                    }),
+              true);
+}
+
+TEST_F(LaboratoryCurve, MayLackGaugePressureAndFall)
+{
+  const auto two = [](const Row& row) { return fmt::format("{:.9f},{:.9f}", row.strain, row.stress); };
+  expect_rock(table("axial_strain [%],axial_stress [MPa]", two), false);
+  const std::string to_failure = table("axial_strain [%],axial_stress [MPa]", two, false);
+  expect_rock(to_failure, false);
+  const Series series = read(to_failure);
+  ASSERT_EQ(series.problems.size(), 1u);
+  EXPECT_NE(series.problems[0].find("the record ends at its highest stress, which is taken as the strength"),
+            std::string::npos);
+  const TestResults& results = series.tests.front().results;
+  EXPECT_EQ(results.post_peak_drop.reason, "the measured curve ends at its highest stress");
+  EXPECT_FALSE(results.residual_deviator_ratio.value);
+  // The noise of a pressure cell in the open.
+  int k = 0;
+  expect_rock(table("axial_strain [%],axial_stress [MPa],confining_pressure [MPa]",
+                    [&](const Row& row) { return two(row) + fmt::format(",{:.3f}", 0.02 * std::sin(++k)); }),
+              false);
+}
+
+TEST_F(LaboratoryCurve, OfForcesAndDisplacementsNeedsTheSizeOfItsCylinder)
+{
+  const CylinderSize size = parse_cylinder_size("50, 100 mm");
+  const double section = std::numbers::pi / 4.0 * 50.0 * 50.0; // [mm^2]
+  const std::string text = table("Displacement (mm),Load (kN)", [&](const Row& row) {
+    return fmt::format("{:.9f},{:.9f}", row.strain / 100.0 * 100.0, row.stress * section / 1e3);
+  });
+  expect_rock(text, false, size);
+  refuse(text, "forces and displacements need the size of the specimen, as --curve-size \"50, 100 mm\"");
+  for (const char* const wrong : {"50 mm", "50, 0 mm", "50, 100", "50, 100, 20 mm"})
+    EXPECT_THROW(parse_cylinder_size(wrong), InputError) << wrong;
+}
+
+TEST_F(LaboratoryCurve, UnderPressureBeginsWhereThePressureIsReached)
+{
+  std::string text = "axial_strain [%],deviator_stress [MPa],confining_pressure [MPa]\n";
+  for (int k = 0; k < 10; ++k) // the cell is filled; the specimen shortens a little
+    text += fmt::format("{:.9f},0,{}\n", 0.001 * k, 2.0 * k);
+  for (const Row& row : rows())
+    text += fmt::format("{:.9f},{:.9f},20\n", 0.01 + row.strain, row.stress);
+  text += "0.4,10,3\n"; // the jacket fails
+  const Series series = read(text);
+  const FinishedTest& test = series.tests.front();
+  EXPECT_EQ(test.record.confining_pressure, 20e6);
+  EXPECT_EQ(test.record.kind.name, "triaxial_compression");
+  EXPECT_NEAR(test.results.peak_stress.value.value(), 140e6, 1.0);
+  EXPECT_NEAR(test.results.youngs_modulus_initial.value.value(), 1e6 * E, 1e-6 * 1e6 * E);
+  ASSERT_EQ(series.problems.size(), 3u);
+  EXPECT_NE(series.problems[0].find("the first 10 rows, before the confining pressure was reached"), std::string::npos);
+  EXPECT_NE(series.problems[1].find("the last 1 rows"), std::string::npos) << series.problems[1];
+  EXPECT_NE(series.problems[2].find("strains are counted from row 1"), std::string::npos) << series.problems[2];
+}
+
+// Peaks on a curve of Hoek and Brown of an intact rock, σ_ci = 100 MPa and m = 12: the fit finds both.
+TEST_F(LaboratoryCurve, OfSeveralTestsGivesAnEnvelope)
+{
+  std::vector<std::filesystem::path> files;
+  for (const double pressure : {0.0, 5.0, 10.0, 20.0, 40.0})
+    {
+      const double strength = pressure + 100.0 * std::sqrt(12.0 * pressure / 100.0 + 1.0);
+      std::string text = "axial_strain [%],axial_stress [MPa],confining_pressure [MPa]\n";
+      for (const Row& row : rows())
+        text +=
+          fmt::format("{:.9f},{:.9f},{}\n", row.strain, pressure + (strength - pressure) * row.stress / ucs, pressure);
+      files.push_back(folder.write(fmt::format("tri{:g}.csv", pressure), text));
+    }
+  const Series series = read_laboratory_curves(files);
+  EXPECT_EQ(series.label, "measured curves");
+  ASSERT_EQ(series.tests.size(), 5u);
+  EXPECT_EQ(series.tests[2].name, "tri10");
+  const StrengthEnvelopes envelopes = fit_strength_envelopes(strength_data(series.tests));
+  const auto* const fit = envelopes.representative();
+  ASSERT_NE(fit, nullptr);
+  EXPECT_NEAR(fit->sigma_ci.value, 100e6, 1e-3 * 100e6);
+  EXPECT_NEAR(fit->m.value, 12.0, 1e-3 * 12.0);
+}
+
+TEST_F(LaboratoryCurve, ThatCannotBeMeantIsRefusedByLineAndReason)
+{
+  refuse("axial_strain [%],axial_stress\n0,0\n0.1,50\n0.2,100\n", "core.csv:1: \"axial_stress\" has no unit");
+  refuse("axial_strain [%],lateral_strain [%]\n0,0\n", "there is no column axial_stress, nor axial_force");
+  refuse("", "there is no column axial_strain");
+  refuse("axial_strain [%];axial_stress [MPa]\n0,1;50\n0.2;100\n",
+         "core.csv:3: axial_strain [%]: \"0.2\" has another decimal sign than the numbers before it");
+  refuse("axial_strain [%];axial_stress [MPa]\n0,1;1.234,5\n", "\"1.234,5\"");
+  refuse("axial_strain [%],axial_stress [MPa]\n0,\"0\n0.1,50\n", "core.csv:2: a double quote is opened and not closed");
+  refuse("\xff\xfe"
+         "a",
+         "begins as UTF-16 and is not");
+  refuse("axial_strain [%],axial_stress [MPa]\n0,0\n0.1\n", "core.csv:3: there must be 2 values");
+}
+
+TEST(CsvReader, TakesQuotesOffAsRfc4180Says)
+{
+  const TemporaryFolder folder;
+  CsvReader table(
+    folder.write("t.csv", "\"a, first\",b\r\n# a remark\n\"1\",\"with \"\"quotes\"\", and\nlines\"\r\n\n,\n2,3,,\n"));
+  ASSERT_EQ(table.header().size(), 2u);
+  EXPECT_EQ(table.header()[0], "a, first");
+  ASSERT_TRUE(table.next());
+  EXPECT_EQ(table.number(0), 1.0);
+  EXPECT_EQ(table.text(1), "with \"quotes\", and\nlines");
+  ASSERT_TRUE(table.next()); // an empty row and empty cells at the end are no mistakes
+  EXPECT_EQ(table.number(1), 3.0);
+  EXPECT_EQ(table.line_of_row(), 7u);
+  EXPECT_FALSE(table.next());
+}
+
+TEST(CsvReader, FindsColumnsInAnyOrderButNoOthers)
+{
+  const TemporaryFolder folder;
+  const auto rows = read_csv(folder.write("t.csv", "\"\",\"to\",\"from\"\n\"1\",2,3\n"), "from,to");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0], (std::vector<double>{3.0, 2.0}));
+  EXPECT_THROW(read_csv(folder.write("t.csv", "from,to,weight\n1,2,3\n"), "from,to"), InputError);
+  EXPECT_THROW(read_csv(folder.write("t.csv", "from\n1\n"), "from,to"), InputError);
+}
+} // namespace
+} // namespace feldspar
