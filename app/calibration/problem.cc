@@ -62,15 +62,14 @@ void check_poissons_ratio(const Problem& problem, const CalibrationParameters& w
   const auto target = target_of(problem, ResponseScale::none);
   if (!target || wanted.poissons_ratio != ElasticFigure::initial)
     return; // cracks raise the secant: the design will tell
-  const double least = elastic.least().poissons_ratio;
-  const double largest = elastic.largest().poissons_ratio;
+  const auto& [least, largest] = elastic.range();
   // Specimens between walls differ from cells by some hundredths.
   constexpr double of_walls = 0.03;
-  if (*target < least - of_walls || *target > largest + of_walls)
+  if (*target < least.poissons_ratio - of_walls || *target > largest.poissons_ratio + of_walls)
     throw InputError(
       fmt::format("an initial Poisson's ratio of {:.3f} cannot be reached: the intact rock has {:.3f} to "
                   "{:.3f} between the bounds of section Calibration; widen those of Stiffness ratio or "
                   "Installation gap ratio, or correct the reference file",
-                  *target, least, largest));
+                  *target, least.poissons_ratio, largest.poissons_ratio));
 }
 } // namespace feldspar::calibration
