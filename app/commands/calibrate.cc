@@ -1,7 +1,6 @@
 #include "app/calibration/calibrated_input.h"
 #include "app/calibration/calibration_results.h"
 #include "app/calibration/elastic_cells.h"
-#include "app/calibration/input_check.h"
 #include "app/calibration/precision.h"
 #include "app/calibration/problem.h"
 #include "app/calibration/tested_points.h"
@@ -371,11 +370,9 @@ private:
   {
     progress.remark(
       fmt::format("Answer, round {}: packings {} to {}.", round, best_input.seeds.front(), best_input.seeds.back()));
-    const std::vector<Variant> one{{"", best_input}};
-    const auto orders = specimen_orders(one);
-    auto specimens = provide_specimens<dim>(one, orders, folder, progress);
-    const auto planned = plan_tests(one, orders, seeds_of(orders, specimens));
-    auto finished_tests = run_programme(one, planned, specimens, folder, progress);
+    const RunPlan plan(best_input);
+    auto specimens = provide_specimens<dim>(plan, folder, progress);
+    auto finished_tests = run_programme(plan, plan_tests(plan, specimens), specimens, folder, progress);
     end_if_interrupted();
     return finished_tests;
   }
