@@ -30,10 +30,13 @@
 
 /// `feldspar calibrate`: from the first intact cell to the tests of the answer: elastic constants, design, steps, strain
 /// scale, fresh packings, posterior.
-namespace feldspar::calibration
+namespace feldspar
 {
 namespace
 {
+using namespace calibration;
+using calibration::Place; // not that of an entry
+
 /// Everything that a calibration knows while it runs.
 template <int dim>
 class CalibrationRun
@@ -412,14 +415,14 @@ private:
   std::size_t n_steps = 0;
 };
 } // namespace
-} // namespace feldspar::calibration
 
-int feldspar::run_calibrate(const CommonOptions& options)
+int run_calibrate(const CommonOptions& options)
 {
   return run_command({"calibrate", calibration::check_input,
                       [](const Run& run) {
-                        return run.input.specimen.dimension == 2 ? calibration::CalibrationRun<2>(run).go()
-                                                                 : calibration::CalibrationRun<3>(run).go();
+                        return run.input.specimen.dimension == 2 ? CalibrationRun<2>(run).go()
+                                                                 : CalibrationRun<3>(run).go();
                       }},
                      options);
 }
+} // namespace feldspar
