@@ -61,14 +61,14 @@ public:
     add_extract(*app.get_subcommand("multiscale"));
     add_report();
     add_parameters();
-    add_help();
-    add_manual();
+    add_texts();
   }
 
   /// Returns the exit code.
   int run(const int argc, const char* const* argv)
   {
-    check_subcommand(argc, argv);
+    if (argc > 1 && !std::string_view(argv[1]).starts_with('-'))
+      check_name(argv[1]); // CLI11 would only say that the word was not expected
     try
       {
         app.parse(argc, argv);
@@ -193,46 +193,35 @@ private:
                           "  feldspar parameters --check granite.prm --for lab");
   }
 
-  /// Prints the help on this command; null: on the program.
-  void print_help(const CLI::App* const command) const
+  /// The help on this command; null: on the program.
+  std::string help_text(const CLI::App* const command) const
   {
-    print_result(
-      "{}", help_on(command ? *command : app, app.get_name() + (command ? " " + command->get_name() : std::string())));
+    return help_on(command ? *command : app, app.get_name() + (command ? " " + command->get_name() : std::string()));
   }
 
-  void add_help()
+  /// A subcommand that prints a text.
+  CLI::App& add_text(const char* name, const char* description, const std::function<std::string()>& text)
   {
-    CLI::App& help = *app.add_subcommand("help", "the same as --help, or as COMMAND --help");
-    help.add_option("COMMAND", helped, "a command");
-    help.callback([this] {
-      chosen = [this] {
-        check_name(helped.empty() ? "help" : helped);
-        print_help(helped.empty() ? nullptr : app.get_subcommand(helped));
+    CLI::App& command = *app.add_subcommand(name, description);
+    command.callback([this, text] {
+      chosen = [text] {
+        print_result("{}", text());
         return 0;
       };
     });
-    app.add_subcommand("version", "the same as --version")->callback([this] {
-      chosen = [] {
-        print_result("feldspar {}\n", version);
-        return 0;
-      };
-    });
+    return command;
   }
 
-  void add_manual()
+  void add_texts()
   {
-    app.add_subcommand("manual", "the manual page, for man: feldspar manual | man -l -")->callback([this] {
-      chosen = [this] {
-        print_result("{}", manual_page(app));
-        return 0;
-      };
-    });
-    app.add_subcommand("completion", "completion for bash: source <(feldspar completion)")->callback([this] {
-      chosen = [this] {
-        print_result("{}", bash_completion(app));
-        return 0;
-      };
-    });
+    add_text("help", "the same as --help, or as COMMAND --help", [this] {
+      check_name(helped.empty() ? "help" : helped);
+      return help_text(helped.empty() ? nullptr : app.get_subcommand(helped));
+    }).add_option("COMMAND", helped, "a command");
+    add_text("version", "the same as --version", [] { return fmt::format("feldspar {}\n", version); });
+    add_text("manual", "the manual page, for man: feldspar manual | man -l -", [this] { return manual_page(app); });
+    add_text("completion", "completion for bash: source <(feldspar completion)",
+             [this] { return bash_completion(app); });
   }
 
   /// With what a user would type.
@@ -247,7 +236,7 @@ private:
     const auto subcommands = app.get_subcommands();
     if (error.get_name() == "CallForHelp")
       {
-        print_help(subcommands.empty() ? nullptr : subcommands.front());
+        print_result("{}", help_text(subcommands.empty() ? nullptr : subcommands.front()));
         return 0;
       }
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
@@ -273,14 +262,6 @@ private:
     const std::string given = word->substr(0, word->find('='));
     return fmt::format("{}: {} has no such option{}", excerpt(given), command.get_name(),
                        suggestion(given, {names.begin(), names.end()}));
-  }
-
-  /// CLI11 would only say that the word was not expected.
-  void check_subcommand(const int argc, const char* const* argv) const
-  {
-    if (argc < 2 || std::string_view(argv[1]).starts_with('-'))
-      return;
-    check_name(argv[1]);
   }
 
   void check_name(const std::string_view name) const

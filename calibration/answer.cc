@@ -1,8 +1,7 @@
 #include "calibration/answer.h"
 
 #include "base/prefixes.h"
-
-#include "calibration/posterior.h"
+#include "calibration/open_turns.h"
 #include "laboratory/paired_moments.h"
 
 #include <Eigen/Cholesky>
@@ -11,8 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
+#include <utility>
 
 namespace feldspar::calibration
 {
@@ -24,21 +23,19 @@ class Coordinates
 public:
   Coordinates(const std::size_t n_unknowns, const FitFreedom& freedom, const Place& start)
     : n(n_unknowns)
-    , has_modulus(freedom.modulus)
-    , has_strength(freedom.strength)
     , fixed(start)
   {
+    if (freedom.modulus)
+      scales.push_back(&Place::log_modulus);
+    if (freedom.strength)
+      scales.push_back(&Place::log_strength);
   }
-
-  std::size_t size() const { return n + std::size_t(has_modulus) + std::size_t(has_strength); }
 
   std::vector<double> of(const Place& place) const
   {
     std::vector<double> x = place.point;
-    if (has_modulus)
-      x.push_back(place.log_modulus);
-    if (has_strength)
-      x.push_back(place.log_strength);
+    for (const auto scale : scales)
+      x.push_back(place.*scale);
     return x;
   }
 
@@ -46,18 +43,15 @@ public:
   {
     Place result = fixed;
     result.point.assign(x.begin(), x.begin() + std::ptrdiff_t(n));
-    if (has_modulus)
-      result.log_modulus = x[n];
-    if (has_strength)
-      result.log_strength = x[n + std::size_t(has_modulus)];
+    for (std::size_t k = 0; k < scales.size(); ++k)
+      result.*scales[k] = x[n + k];
     return result;
   }
 
 private:
   std::size_t n;
-  bool has_modulus;
-  bool has_strength;
   Place fixed;
+  std::vector<double Place::*> scales;
 };
 
 /// Variance of the difference between prediction and target, in the model's measure.
@@ -85,7 +79,8 @@ double log_density(const ResponseModel& model, const std::vector<Target>& target
 std::vector<std::vector<double>> nearby_covariance(const ResponseModel& model, const std::vector<Target>& targets,
                                                    const Coordinates& coordinates, const Place& best)
 {
-  const std::size_t n = coordinates.size();
+  const std::vector<double> centre = coordinates.of(best);
+  const std::size_t n = centre.size();
   const std::size_t n_unknowns = model.unknowns().size();
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(Eigen::Index(n), Eigen::Index(n));
   for (std::size_t k = 0; k < n; ++k)
@@ -93,7 +88,6 @@ std::vector<std::vector<double>> nearby_covariance(const ResponseModel& model, c
   for (const Target& target : targets)
     {
       Eigen::VectorXd slope(static_cast<Eigen::Index>(n));
-      const std::vector<double> centre = coordinates.of(best);
       for (std::size_t k = 0; k < n; ++k)
         {
           constexpr double step = 1e-3;
@@ -113,48 +107,6 @@ std::vector<std::vector<double>> nearby_covariance(const ResponseModel& model, c
   return result;
 }
 
-/// A quantity of a place that is reported.
-struct Quantity
-{
-  std::string name, title, unit;
-  double unit_size;
-  std::function<double(const MicroParameters&)> value; ///< [SI]
-  std::optional<Bounds> bounds;
-  bool logarithmic;
-};
-
-std::vector<Quantity> quantities(const ResponseModel& model, const FitFreedom& freedom)
-{
-  std::vector<Quantity> all;
-  if (freedom.modulus)
-    all.push_back({"modulus", "modulus", "GPa", giga, [](const MicroParameters& p) { return p.modulus; }, {}, true});
-  if (freedom.strength)
-    all.push_back({"bond_tensile_strength",
-                   "bond tensile strength",
-                   "MPa",
-                   mega,
-                   [](const MicroParameters& p) { return p.bond_tensile_strength; },
-                   {},
-                   true});
-  bool has_cohesion = freedom.strength;
-  for (const Unknown& unknown : model.unknowns())
-    {
-      all.push_back({unknown.name, unknown.title, unknown.unit, unknown.unit_size,
-                     [unknown](const MicroParameters& p) { return unknown.member ? p.*unknown.member : *p.gap; },
-                     unknown.bounds, unknown.logarithmic});
-      has_cohesion |= unknown.name == "cohesion_ratio";
-    }
-  if (has_cohesion)
-    all.push_back({"bond_cohesion",
-                   "bond cohesion",
-                   "MPa",
-                   mega,
-                   [](const MicroParameters& p) { return p.cohesion_ratio * p.bond_tensile_strength; },
-                   {},
-                   true});
-  return all;
-}
-
 double correlation(const std::vector<double>& a, const std::vector<double>& b)
 {
   const PairedMoments of = paired_moments(a, b);
@@ -162,13 +114,13 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b)
 }
 
 /// The share of what the bounds allow. A scale has no bounds: its own range is taken as a factor of two to each side.
-double share_of_bounds(const Quantity& quantity, const double lower, const double upper)
+double share_of_bounds(const ParameterAnswer& answer)
 {
   constexpr double middle_90 = 0.9; // of an even distribution
-  const auto measure = [&](const double value) { return quantity.logarithmic ? std::log(value) : value; };
+  const auto measure = [&](const double value) { return answer.logarithmic ? std::log(value) : value; };
   const double range =
-    quantity.bounds ? measure(quantity.bounds->upper) - measure(quantity.bounds->lower) : 2.0 * std::numbers::ln2;
-  return (measure(upper) - measure(lower)) / (middle_90 * range);
+    answer.bounds ? measure(answer.bounds->upper) - measure(answer.bounds->lower) : 2.0 * std::numbers::ln2;
+  return (measure(answer.upper_90) - measure(answer.lower_90)) / (middle_90 * range);
 }
 
 Determination determination_of(const double share)
@@ -208,6 +160,31 @@ std::string words(const Determination verdict)
                                               : "not determined";
 }
 
+std::string ParameterAnswer::si_unit() const { return unit.empty() ? "1" : unit == "deg" ? "rad" : "Pa"; }
+
+std::vector<ParameterAnswer> reported_parameters(const std::vector<Unknown>& unknowns, const bool modulus,
+                                                 const bool strength)
+{
+  std::vector<ParameterAnswer> all;
+  if (modulus)
+    all.push_back({"modulus", "modulus", "GPa", giga, [](const MicroParameters& p) { return p.modulus; }});
+  if (strength)
+    all.push_back({"bond_tensile_strength", "bond tensile strength", "MPa", mega,
+                   [](const MicroParameters& p) { return p.bond_tensile_strength; }});
+  bool has_cohesion = strength;
+  for (const Unknown& unknown : unknowns)
+    {
+      all.push_back({unknown.name, unknown.title, unknown.unit, unknown.unit_size,
+                     [unknown](const MicroParameters& p) { return unknown.of(p); }, unknown.bounds,
+                     unknown.logarithmic});
+      has_cohesion |= unknown.name == "cohesion_ratio";
+    }
+  if (has_cohesion)
+    all.push_back({"bond_cohesion", "bond cohesion", "MPa", mega,
+                   [](const MicroParameters& p) { return p.cohesion_ratio * p.bond_tensile_strength; }});
+  return all;
+}
+
 double quantile(std::vector<double> values, const double share)
 {
   std::sort(values.begin(), values.end());
@@ -222,15 +199,15 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
 {
   const std::size_t n_unknowns = model.unknowns().size();
   const Coordinates coordinates(n_unknowns, freedom, best);
+  std::vector<double> start = coordinates.of(best);
   std::vector<double> lower(n_unknowns, 0.0);
   std::vector<double> upper(n_unknowns, 1.0);
   constexpr double far = 3.0; // a factor of 20 to each side
-  for (std::size_t k = n_unknowns; k < coordinates.size(); ++k)
+  for (std::size_t k = n_unknowns; k < start.size(); ++k)
     {
-      lower.push_back(coordinates.of(best)[k] - far);
-      upper.push_back(coordinates.of(best)[k] + far);
+      lower.push_back(start[k] - far);
+      upper.push_back(start[k] + far);
     }
-  std::vector<double> start = coordinates.of(best);
   constexpr double off_the_bounds = 1e-6;
   for (std::size_t k = 0; k < n_unknowns; ++k)
     start[k] = std::clamp(start[k], off_the_bounds, 1.0 - off_the_bounds);
@@ -262,29 +239,20 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
   for (std::size_t j = 0; j < model.n_responses(); ++j)
     has_confined_tests |= model.response(j).name.starts_with("strength_at_");
   const MicroParameters at_best = model.parameters(best);
-  for (const Quantity& quantity : quantities(model, freedom))
+  for (ParameterAnswer& answer : reported_parameters(model.unknowns(), freedom.modulus, freedom.strength))
     {
       std::vector<double> values;
       std::vector<double> measured;
       for (const Place& place : result.samples)
         {
-          values.push_back(quantity.value(model.parameters(place)));
-          measured.push_back(quantity.logarithmic ? std::log(values.back()) : values.back());
+          values.push_back(answer.value(model.parameters(place)));
+          measured.push_back(answer.logarithmic ? std::log(values.back()) : values.back());
         }
-      ParameterAnswer answer{quantity.name,
-                             quantity.title,
-                             quantity.unit,
-                             quantity.unit_size,
-                             quantity.value(at_best),
-                             quantile(values, 0.5),
-                             quantile(values, 0.05),
-                             quantile(values, 0.95),
-                             quantity.bounds,
-                             0.0,
-                             Determination::not_determined,
-                             "",
-                             ""};
-      answer.share_of_bounds = share_of_bounds(quantity, answer.lower_90, answer.upper_90);
+      answer.best = answer.value(at_best);
+      answer.median = quantile(values, 0.5);
+      answer.lower_90 = quantile(values, 0.05);
+      answer.upper_90 = quantile(values, 0.95);
+      answer.share_of_bounds = share_of_bounds(answer);
       answer.verdict = determination_of(answer.share_of_bounds);
       // A test helps by what it shares with the parameter, less what its own error of measurement would hide.
       double most = 0.1; // of the variance; less is no help
@@ -310,7 +278,7 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
             }
         }
       answer.sentence = sentence_of(answer, helpful_title, has_confined_tests);
-      result.parameters.push_back(answer);
+      result.parameters.push_back(std::move(answer));
     }
   return result;
 }

@@ -4,6 +4,8 @@
 #include "calibration/response_model.h"
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,16 +28,24 @@ struct ParameterAnswer
   std::string title;
   std::string unit;
   double unit_size;
-  double best; ///< in the input that is written [SI], as all below
-  double median;
-  double lower_90; ///< 5th and 95th percentile
-  double upper_90;
-  std::optional<Bounds> bounds; ///< of an unknown that has some
-  double share_of_bounds;       ///< of the 90 % interval, of what 90 % of the unconstrained parameter would take
-  Determination verdict;
-  std::string helpful_test; ///< the response without a target that would tell most of it; empty: none does
-  std::string sentence;
+  std::function<double(const MicroParameters&)> value; ///< [SI]
+  std::optional<Bounds> bounds = {};                   ///< of an unknown that has some
+  bool logarithmic = true;                             ///< spread evenly over its logarithm
+  double best = 0.0;                                   ///< in the input that is written [SI], as all below
+  double median = 0.0;
+  double lower_90 = 0.0; ///< 5th and 95th percentile
+  double upper_90 = 0.0;
+  double share_of_bounds = 0.0; ///< of the 90 % interval, of what 90 % of the unconstrained parameter would take
+  Determination verdict = Determination::not_determined;
+  std::string helpful_test = {}; ///< the response without a target that would tell most of it; empty: none does
+  std::string sentence = {};
+
+  std::string si_unit() const;
 };
+
+/// The parameters that an answer reports, before the tests: the scales that are unknown, the unknowns and, where it follows from
+/// them, the cohesion.
+std::vector<ParameterAnswer> reported_parameters(const std::vector<Unknown>& unknowns, bool modulus, bool strength);
 
 /// A response in the light of the targets.
 struct PredictedResponse

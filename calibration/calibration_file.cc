@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -18,11 +17,6 @@ namespace
 using Json = nlohmann::ordered_json;
 
 std::string si_unit(const Response& response) { return response.shown.unit.empty() ? "1" : "Pa"; }
-
-std::string si_unit(const ParameterAnswer& answer)
-{
-  return answer.unit.empty() ? "1" : answer.unit == "deg" ? "rad" : "Pa";
-}
 
 Json as_json(const TargetOutcome& outcome, const Response& response, const double tolerance)
 {
@@ -64,7 +58,7 @@ Json as_json(const TargetOutcome& outcome, const Response& response, const doubl
 
 Json as_json(const ParameterAnswer& answer)
 {
-  Json json{{"title", answer.title},   {"unit", si_unit(answer)},     {"best", answer.best},
+  Json json{{"title", answer.title},   {"unit", answer.si_unit()},    {"best", answer.best},
             {"median", answer.median}, {"lower_90", answer.lower_90}, {"upper_90", answer.upper_90}};
   if (answer.bounds)
     json["bounds"] = {answer.bounds->lower, answer.bounds->upper};
@@ -153,11 +147,12 @@ void write_calibration(const Provenance& made_by, const CalibrationOutcome& outc
   for (std::size_t j = 0; j < model.n_responses(); ++j)
     if (model.knows(j))
       {
+        const LearntResponse& of_tests = model.learnt(j);
         Json& one = learnt[model.response(j).name];
-        one["noise_of_a_value"] = model.noise(j);
-        one["correction"] = model.correction(j);
-        if (model.scatter(j))
-          one["scatter_of_packings"] = *model.scatter(j);
+        one["noise_of_a_value"] = of_tests.noise;
+        one["correction"] = of_tests.correction;
+        if (of_tests.scatter)
+          one["scatter_of_packings"] = *of_tests.scatter;
         one["is_of"] = model.response(j).scale == ResponseScale::none ? "the figure" : "its logarithm";
       }
   json["strain_scale_effects"] = outcome.scale_effects;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace feldspar::calibration
 {
@@ -54,21 +53,16 @@ ElasticTable::Constants ElasticTable::at(const double stiffness_ratio, const dou
   return sum;
 }
 
-ElasticTable::Constants ElasticTable::least() const
+std::pair<ElasticTable::Constants, ElasticTable::Constants> ElasticTable::range() const
 {
   Constants least = entries.front().front();
+  Constants most = least;
   for (const auto& row : entries)
     for (const Constants& one : row)
-      least = {std::min(least.modulus_ratio, one.modulus_ratio), std::min(least.poissons_ratio, one.poissons_ratio)};
-  return least;
-}
-
-ElasticTable::Constants ElasticTable::largest() const
-{
-  Constants most = entries.front().front();
-  for (const auto& row : entries)
-    for (const Constants& one : row)
-      most = {std::max(most.modulus_ratio, one.modulus_ratio), std::max(most.poissons_ratio, one.poissons_ratio)};
-  return most;
+      {
+        least = {std::min(least.modulus_ratio, one.modulus_ratio), std::min(least.poissons_ratio, one.poissons_ratio)};
+        most = {std::max(most.modulus_ratio, one.modulus_ratio), std::max(most.poissons_ratio, one.poissons_ratio)};
+      }
+  return {least, most};
 }
 } // namespace feldspar::calibration

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace feldspar::calibration
 {
@@ -61,16 +62,16 @@ struct Residuals
   }
 };
 
-struct Solution
+/// The bounds of a ratio in its region.
+std::pair<double, double> bounds_of(const FitFreedom& freedom, const std::size_t k)
 {
-  std::vector<double> x;
-  double cost;
-};
+  return {std::max(0.0, freedom.centre[k] - freedom.half_width), std::min(1.0, freedom.centre[k] + freedom.half_width)};
+}
 
-Solution solve(const Residuals& residuals, std::vector<double> x)
+/// The best ratios near these, which are moved into their region first, and their cost.
+std::pair<UnitPoint, double> solve(const Residuals& residuals, UnitPoint x)
 {
-  const FitFreedom& freedom = residuals.freedom;
-  const std::size_t n = residuals.model.unknowns().size();
+  const std::size_t n = x.size();
   ceres::NumericDiffOptions steps;
   steps.relative_step_size = 1e-5;
   // The residuals outlive the problem.
@@ -82,8 +83,10 @@ Solution solve(const Residuals& residuals, std::vector<double> x)
   problem.AddResidualBlock(cost, nullptr, x.data());
   for (std::size_t k = 0; k < n; ++k)
     {
-      problem.SetParameterLowerBound(x.data(), int(k), std::max(0.0, freedom.centre[k] - freedom.half_width));
-      problem.SetParameterUpperBound(x.data(), int(k), std::min(1.0, freedom.centre[k] + freedom.half_width));
+      const auto [lower, upper] = bounds_of(residuals.freedom, k);
+      x[k] = std::clamp(x[k], lower, upper);
+      problem.SetParameterLowerBound(x.data(), int(k), lower);
+      problem.SetParameterUpperBound(x.data(), int(k), upper);
     }
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
@@ -113,18 +116,11 @@ Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, con
       for (std::size_t k = 0; k < n; ++k)
         starts.back()[k] = std::clamp(freedom.centre[k] + freedom.half_width * (2.0 * point[k] - 1.0), 0.0, 1.0);
     }
-  std::optional<Solution> best;
+  std::optional<std::pair<UnitPoint, double>> best;
   for (const UnitPoint& point : starts)
-    {
-      std::vector<double> x(point);
-      for (std::size_t k = 0; k < n; ++k)
-        x[k] = std::clamp(x[k], std::max(0.0, freedom.centre[k] - freedom.half_width),
-                          std::min(1.0, freedom.centre[k] + freedom.half_width));
-      const Solution found = solve(residuals, x);
-      if (!best || found.cost < best->cost)
-        best = found;
-    }
-  Fit fit{residuals.place_at(best->x.data()), 0.0, {}};
+    if (auto found = solve(residuals, point); !best || found.second < best->second)
+      best = std::move(found);
+  Fit fit{residuals.place_at(best->first.data()), 0.0, {}};
   for (const Target& target : targets)
     {
       const Response& response = model.response(target.response);

@@ -4,17 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 namespace feldspar::calibration
 {
-namespace
-{
-constexpr double infinity = std::numeric_limits<double>::infinity();
-} // namespace
-
 ResponseModel::ResponseModel(std::vector<Response> responses, std::vector<Unknown> unknowns,
                              const MicroParameters& fixed, ElasticTable elastic, const double gap_of_specimens)
   : all(std::move(responses))
@@ -22,12 +16,7 @@ ResponseModel::ResponseModel(std::vector<Response> responses, std::vector<Unknow
   , fixed_values(fixed)
   , table(std::move(elastic))
   , gap(gap_of_specimens)
-  , surrogates(all.size())
-  , noises(all.size(), 0.0)
-  , scatters_of_design(all.size())
-  , corrections(all.size(), 0.0)
-  , correction_errors(all.size(), 0.0)
-  , scatters(all.size())
+  , of_tests(all.size())
 {
 }
 
@@ -76,7 +65,7 @@ void ResponseModel::learn(const std::vector<TestedPoint>& design)
       std::vector<std::vector<double>> of_point(n_points);
       std::vector<UnitPoint> places(n_points);
       for (const TestedPoint& tested : design)
-        if (tested.values[j] && *tested.values[j] <= all[j].largest_in_design.value_or(infinity))
+        if (tested.values[j] && *tested.values[j] <= all[j].largest_in_design.value_or(*tested.values[j]))
           {
             of_point[tested.number].push_back(all[j].in_model(*tested.values[j]) - base(j, tested));
             places[tested.number] = tested.point;
@@ -92,8 +81,8 @@ void ResponseModel::learn(const std::vector<TestedPoint>& design)
             values.push_back(of_point[i]);
             means.push_back(statistics(of_point[i])->mean);
           }
-      surrogates[j].reset();
-      scatters_of_design[j].reset();
+      LearntResponse& learnt = of_tests[j];
+      learnt = {};
       if (points.size() < unknown.size() + 3)
         continue;
       // Rows and columns without interaction: points and packings (two-way analysis of variance).
@@ -109,10 +98,10 @@ void ResponseModel::learn(const std::vector<TestedPoint>& design)
             squares += std::pow(values[i][m] - means[i] - of_packing[m], 2);
             about_points += std::pow(values[i][m] - means[i], 2);
           }
-      scatters_of_design[j] = std::sqrt(about_points / double(points.size() * (packings.size() - 1)));
+      learnt.scatter_of_design = std::sqrt(about_points / double(points.size() * (packings.size() - 1)));
       const double variance = squares / double((points.size() - 1) * (packings.size() - 1));
-      noises[j] = std::sqrt(variance);
-      surrogates[j].emplace(points, means, std::vector<double>(points.size(), variance / double(packings.size())));
+      learnt.noise = std::sqrt(variance);
+      learnt.surrogate.emplace(points, means, std::vector<double>(points.size(), variance / double(packings.size())));
     }
 }
 
@@ -120,34 +109,33 @@ void ResponseModel::correct(const std::vector<TestedPoint>& tests)
 {
   for (std::size_t j = 0; j < all.size(); ++j)
     {
-      if (!surrogates[j])
+      LearntResponse& learnt = of_tests[j];
+      if (!learnt.surrogate)
         continue;
       // Small changes of the parameters lead a packing to another failure: all tests of it count alike.
       std::map<std::uint64_t, std::vector<double>> of_packing;
       for (const TestedPoint& tested : tests)
         if (tested.values[j])
           of_packing[tested.seed].push_back(all[j].in_model(*tested.values[j]) - base(j, tested) -
-                                            surrogates[j]->mean(tested.point));
+                                            learnt.surrogate->mean(tested.point));
       std::vector<double> residuals;
       for (const auto& [seed, of_tests] : of_packing)
         residuals.push_back(statistics(of_tests)->mean);
       const auto over_packings = statistics(residuals);
-      corrections[j] = over_packings ? over_packings->mean : 0.0;
-      correction_errors[j] = over_packings && over_packings->standard_error ? *over_packings->standard_error : 0.0;
-      scatters[j] = over_packings ? over_packings->standard_deviation : std::nullopt;
+      learnt.correction = over_packings ? over_packings->mean : 0.0;
+      learnt.correction_error = over_packings ? over_packings->standard_error.value_or(0.0) : 0.0;
+      learnt.scatter = over_packings ? over_packings->standard_deviation : std::nullopt;
     }
 }
 
-double ResponseModel::learnt(const std::size_t j, const UnitPoint& point) const { return surrogates[j]->mean(point); }
-
 double ResponseModel::predict(const std::size_t j, const Place& place) const
 {
-  return base(j, place.point, place.log_modulus, place.log_strength) + surrogates[j]->mean(place.point) +
-         corrections[j];
+  return base(j, place.point, place.log_modulus, place.log_strength) + of_tests[j].surrogate->mean(place.point) +
+         of_tests[j].correction;
 }
 
 double ResponseModel::deviation(const std::size_t j, const UnitPoint& point) const
 {
-  return std::hypot(surrogates[j]->deviation(point), correction_errors[j]);
+  return std::hypot(of_tests[j].surrogate->deviation(point), of_tests[j].correction_error);
 }
 } // namespace feldspar::calibration

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "calibration/elastic_table.h"
+#include "calibration/open_turns.h"
 #include "calibration/responses.h"
-#include "calibration/surrogate.h"
 #include "calibration/unknowns.h"
 
 #include <cstdint>
@@ -31,6 +31,19 @@ struct Place
   double log_strength; ///< of the bonds in tension [Pa]
 };
 
+/// Knowledge of a response by tests, in the model's measure.
+struct LearntResponse
+{
+  std::optional<Surrogate> surrogate; ///< none where the design gave too few values
+  double noise = 0.0; ///< standard deviation of a value of the design about it, without what packings add to all points
+  /// Scatter of a single specimen by the design: root-mean-square standard deviation over the packings of a point.
+  std::optional<double> scatter_of_design;
+  double correction = 0.0;
+  double correction_error = 0.0; ///< its standard error
+  std::optional<double>
+    scatter; ///< of a single specimen about the mean of packings; none without two corrected packings
+};
+
 /// Responses as functions of the micro-parameters. Each response is its scale times a smooth function of the
 /// dimensionless parameters, which is learnt from a design, times a correction by later tests. The scale of a stiffness
 /// is the response of the intact representative volume, that of a strength the bond tensile strength. Poisson's ratio
@@ -54,23 +67,14 @@ public:
   std::string title(const std::string& name) const;
   const std::vector<Unknown>& unknowns() const { return unknown; }
   /// Returns whether the design gave enough values of a response.
-  bool knows(const std::size_t j) const { return surrogates[j].has_value(); }
+  bool knows(const std::size_t j) const { return of_tests[j].surrogate.has_value(); }
 
   MicroParameters parameters(const Place& place) const;
   /// The predicted response, in the model's measure.
   double predict(std::size_t j, const Place& place) const;
   /// Standard deviation of the prediction, by the surrogate and by the packings of the corrections.
   double deviation(std::size_t j, const UnitPoint& point) const;
-  /// The part that the surrogate has learnt, for sensitivities.
-  double learnt(std::size_t j, const UnitPoint& point) const;
-  /// The scatter of a single specimen about the mean of packings; none without two corrected packings.
-  std::optional<double> scatter(const std::size_t j) const { return scatters[j]; }
-  /// The scatter of a single specimen by the design: root-mean-square standard deviation over the packings of a point. None
-  /// before learn(), and where too few points gave the response.
-  std::optional<double> scatter_of_design(const std::size_t j) const { return scatters_of_design[j]; }
-  /// Standard deviation of a value of the design about the function, without what packings add to all points.
-  double noise(const std::size_t j) const { return noises[j]; }
-  double correction(const std::size_t j) const { return corrections[j]; }
+  const LearntResponse& learnt(const std::size_t j) const { return of_tests[j]; }
 
 private:
   double base(std::size_t j, const UnitPoint& point, double log_modulus, double log_strength) const;
@@ -80,12 +84,7 @@ private:
   std::vector<Unknown> unknown;
   MicroParameters fixed_values;
   ElasticTable table;
-  double gap; ///< where it is no unknown
-  std::vector<std::optional<Surrogate>> surrogates;
-  std::vector<double> noises;
-  std::vector<std::optional<double>> scatters_of_design;
-  std::vector<double> corrections;
-  std::vector<double> correction_errors;
-  std::vector<std::optional<double>> scatters;
+  double gap;                           ///< where it is no unknown
+  std::vector<LearntResponse> of_tests; ///< of each response
 };
 } // namespace feldspar::calibration

@@ -54,18 +54,13 @@ std::vector<TargetOutcome> predicted_outcomes(const std::vector<Target>& targets
     {
       const Target& target = targets[t];
       const double error = std::hypot(model.deviation(target.response, fit.place.point),
-                                      model.noise(target.response) / std::sqrt(double(n_packings))) /
+                                      model.learnt(target.response).noise / std::sqrt(double(n_packings))) /
                            model.response(target.response).per_share(target.value);
       const bool is_out_of_reach =
         std::abs(fit.deviations[t]) > errors_apart * error + std::max(tolerance, 2.0 * target.deviation / target.value);
       outcomes.push_back({target, std::nullopt, target.value * (1.0 + fit.deviations[t]), is_out_of_reach});
     }
   return outcomes;
-}
-
-bool any_is_out_of_reach(const std::vector<TargetOutcome>& outcomes)
-{
-  return std::any_of(outcomes.begin(), outcomes.end(), [](const auto& outcome) { return outcome.is_out_of_reach; });
 }
 
 TargetMean mean_of(const TargetOutcome& outcome, const std::string& title)

@@ -32,7 +32,6 @@ std::vector<TargetOutcome> outcomes_of(const std::vector<TestedPoint>& points, c
 /// further off than the fit's surrogates, the packings of the design and the rock's own deviation can explain.
 std::vector<TargetOutcome> predicted_outcomes(const std::vector<Target>& targets, const Fit& fit,
                                               const ResponseModel& model, double tolerance, std::size_t n_packings);
-bool any_is_out_of_reach(const std::vector<TargetOutcome>& outcomes);
 
 /// The verdict on a target by its tests: not decided where they did not give it, missed where it is predicted out of
 /// reach.

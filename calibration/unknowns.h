@@ -1,6 +1,6 @@
 #pragma once
 
-#include "calibration/design.h"
+#include "calibration/open_turns.h"
 #include "calibration/parameters.h"
 
 #include <optional>
@@ -34,6 +34,7 @@ struct Unknown
 
   double value(double coordinate) const; ///< of a coordinate between 0 and 1
   double coordinate(double value) const;
+  double of(const MicroParameters& parameters) const { return member ? parameters.*member : parameters.gap.value(); }
 };
 
 /// The dimensionless micro-parameters that have bounds, in a fixed order.

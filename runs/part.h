@@ -4,6 +4,7 @@
 #include "runs/observer.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace feldspar
 {
@@ -12,10 +13,10 @@ namespace feldspar
 ///
 /// `advance(keep_if_due)` brings the part to its next row; keep_if_due() may be called at moments in between at which the part
 /// can be kept. It returns false where the part is not to be kept any more, because its numbers went wrong.
-/// `agreed`: whether any of the processes that make the part together says so.
-template <typename Part, typename Files, typename Advance, typename Agreed>
+/// `agreed`: whether any of the processes that make the part together says so; by default there is one.
+template <typename Part, typename Files, typename Advance, typename Agreed = std::identity>
 void lead(Part& part, const Files& checkpoints, const RunObserver& observer,
-          const std::uint64_t steps_between_checkpoints, const Advance& advance, const Agreed& agreed)
+          const std::uint64_t steps_between_checkpoints, const Advance& advance, const Agreed& agreed = {})
 {
   const auto n_steps = [&]() -> std::uint64_t {
     if constexpr (requires { part.n_steps(); })
@@ -39,13 +40,5 @@ void lead(Part& part, const Files& checkpoints, const RunObserver& observer,
       else
         keep_if_due();
     }
-}
-
-/// The same by one process.
-template <typename Part, typename Files, typename Advance>
-void lead(Part& part, const Files& checkpoints, const RunObserver& observer,
-          const std::uint64_t steps_between_checkpoints, const Advance& advance)
-{
-  lead(part, checkpoints, observer, steps_between_checkpoints, advance, [](const bool here) { return here; });
 }
 } // namespace feldspar

@@ -13,8 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,20 +20,11 @@ namespace feldspar::calibration
 {
 namespace
 {
-/// The scales, the unknowns and the cohesion of an input, in the order in which a posterior has them.
 std::vector<CalibrationRecord::ParameterRow> nearest_parameters(const ResponseModel& model, const Input& nearest)
 {
-  const MicroParameters p = micro_parameters(nearest);
   std::vector<CalibrationRecord::ParameterRow> rows;
-  const auto add = [&](const std::string& name, const std::string& title, const std::string& unit, const double value) {
-    rows.push_back({name, title, unit, value, std::nullopt, std::nullopt, std::nullopt, "", ""});
-  };
-  add("modulus", "modulus", "Pa", p.modulus);
-  add("bond_tensile_strength", "bond tensile strength", "Pa", p.bond_tensile_strength);
-  for (const Unknown& unknown : model.unknowns())
-    add(unknown.name, unknown.title, unknown.unit == "deg" ? "rad" : "1",
-        unknown.member ? p.*unknown.member : p.gap.value());
-  add("bond_cohesion", "bond cohesion", "Pa", p.cohesion_ratio * p.bond_tensile_strength);
+  for (const ParameterAnswer& one : reported_parameters(model.unknowns(), true, true))
+    rows.push_back({one.name, one.title, one.si_unit(), one.value(micro_parameters(nearest)), {}, {}, {}, "", ""});
   return rows;
 }
 

@@ -43,7 +43,7 @@ std::string precision_by_design(const CalibrationParameters& wanted, const Probl
   for (const Target& target : problem.targets)
     {
       const Response& response = problem.response_of(target);
-      const double scatter = *model.scatter_of_design(target.response) / response.per_share(target.value);
+      const double scatter = *model.learnt(target.response).scatter_of_design / response.per_share(target.value);
       text += fmt::format("\n- {}: {}", response.title, in_words(scatter, wanted));
     }
   return text;

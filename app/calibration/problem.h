@@ -6,6 +6,7 @@
 #include "calibration/unknowns.h"
 #include "results/folder/reference.h"
 
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -35,4 +36,8 @@ MicroParameters first_guess(const Problem& problem, const MicroParameters& fixed
 
 /// Refuses a Poisson's ratio that the intact rock cannot have, before anything is broken.
 void check_poissons_ratio(const Problem& problem, const CalibrationParameters& wanted, const ElasticTable& elastic);
+
+/// Refuses what `feldspar calibrate` cannot run, before any work; throws InputError. It needs no statistics, so that the
+/// program without them can ask it too.
+void check_input(const Input& input, const std::filesystem::path& input_file);
 } // namespace feldspar::calibration

@@ -1,6 +1,4 @@
-#include "app/commands/check_input.h"
-
-#include "app/calibration/input_check.h"
+#include "app/calibration/problem.h"
 #include "app/commands/commands.h"
 #include "app/input/joint_sections.h"
 #include "app/processes/finite_elements.h"
@@ -14,8 +12,6 @@
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "coupling/rve/rve_file.h"
-#include "dem/lab/protocols/protocols.h"
-#include "results/folder/reference.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,8 +41,7 @@ void with_specimen_of_file(const Input& input, const Use& use)
 Remarks check_lab(const Input& input, const std::filesystem::path& file)
 {
   check_laboratory_input(input, file);
-  const auto all_variants = variants(input);
-  check_memory_of_tests(all_variants, specimen_orders(all_variants));
+  check_memory_of_tests(RunPlan(input));
   with_specimen_of_file(
     input, [&](const auto& specimen) { with_name_of(file, [&] { check_specimen_of_file(input, specimen); }); });
   return {};
@@ -74,8 +69,8 @@ Remarks check_multiscale(const Input& input, const std::filesystem::path& file)
 Remarks check_rve(const Input& input, const std::filesystem::path& file)
 {
   check_rve_input(input, file);
-  const auto all_variants = variants(input);
-  check_memory(all_variants, specimen_orders(all_variants));
+  const RunPlan plan(input);
+  check_memory(plan, plan.orders);
   with_specimen_of_file(input, [&]<int dim>(const Specimen<dim>& specimen) {
     with_name_of(file, [&] { check_cell(specimen, "a representative volume"); });
     if (read_rve_state(input.specimen.specimen_file, Network<dim>(specimen)))
@@ -84,23 +79,19 @@ Remarks check_rve(const Input& input, const std::filesystem::path& file)
   return {};
 }
 
-Remarks check_calibrate(const Input& input, const std::filesystem::path& file)
-{
-  calibration::check_input(input, file);
-  return {};
-}
-
 Remarks check_specimen(const Input& input, const std::filesystem::path& /*file*/)
 {
-  const auto all_variants = variants(input);
-  check_memory(all_variants, specimen_orders(all_variants));
+  const RunPlan plan(input);
+  check_memory(plan, plan.orders);
   with_specimen_of_file(input, [](const auto&) {});
   return {};
 }
 
-Remarks check_contact(const Input& input, const std::filesystem::path& file)
+/// The same without remarks.
+template <auto check>
+Remarks check_only(const Input& input, const std::filesystem::path& file)
 {
-  contact_response(input, file);
+  check(input, file);
   return {};
 }
 
@@ -115,9 +106,9 @@ struct Check
 constexpr std::array checks{Check{"lab", check_lab},
                             Check{"rve", check_rve},
                             Check{"multiscale", check_multiscale},
-                            Check{"calibrate", check_calibrate},
+                            Check{"calibrate", check_only<calibration::check_input>},
                             Check{"specimen", check_specimen},
-                            Check{"contact", check_contact}};
+                            Check{"contact", check_only<contact_response>}};
 static_assert(std::equal(checks.begin(), checks.end(), commands_with_input.begin(), commands_with_input.end(),
                          [](const Check& check, const CommandWithInput& command) {
                            return check.command == command.name;
@@ -161,8 +152,7 @@ void check_input(const std::filesystem::path& file, const std::vector<std::strin
                  const std::string& command)
 {
   const Input input = read_input(file, {}, settings);
-  if (!input.reference_file.empty())
-    read_reference(input.reference_file, test_kinds()); // one that does not serve is wrong for all
+  reference_of(input); // one that does not serve is wrong for all
   Remarks unusual = unusual_values(variants(input));
   if (!input.flaws.left_out.empty())
     unusual.push_back(input.flaws.left_out);

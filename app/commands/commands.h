@@ -55,6 +55,16 @@ inline constexpr std::array commands_with_input{
   CommandWithInput{"contact", "one contact along a displacement path; writes contact.csv", run_contact, false, true,
                    "feldspar contact contact.prm"}};
 
+/// `feldspar parameters --check INPUT`: whether a command would take the input, by the checks that it makes itself before
+/// any work. Without a command says of all of them which do, and throws InputError where none that tests rock does.
+void check_input(const std::filesystem::path& file, const std::vector<std::string>& settings,
+                 const std::string& command);
+
+/// `feldspar multiscale --extract CELL:POINT`: of every test in the folder of a run the RVE at that point, in the state
+/// of the last row that was kept. FOLDER/extracted/TEST_cell_C_point_P.h5 is what `feldspar rve` takes as Specimen file,
+/// and .xdmf beside it what ParaView shows, in the axes of the sample. Returns the exit code; throws InputError.
+int extract_rve(const std::filesystem::path& folder, const std::string& cell_and_point, bool quiet);
+
 /// Returns the output of `feldspar contact`: the response of the joint to its path, as CSV. Throws InputError.
 std::string contact_response(const Input& input, const std::filesystem::path& input_file);
 
@@ -82,4 +92,8 @@ struct ParametersOptions
 };
 
 int run_parameters(const ParametersOptions& options);
+
+/// Prints docs/results.md: the quantities of tests, the properties that a reference may give and the columns of curves,
+/// from the tables that results, comparisons and readers use.
+void print_results_reference();
 } // namespace feldspar

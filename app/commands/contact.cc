@@ -76,32 +76,28 @@ struct Segments
 };
 
 /// Columns of the path and of the response.
+struct Columns
+{
+  const char* path;
+  const char* resultants;
+  const char* segment;
+};
+
 template <int dim>
-struct Columns;
-
+constexpr Columns columns = {"normal_m,shear_m,rotation_rad", "normal_force_N,shear_force_N,moment_Nm",
+                             ",sigma_{0}_Pa,tau_{0}_Pa,bonded_{0}"};
 template <>
-struct Columns<2>
-{
-  static constexpr const char* path = "normal_m,shear_m,rotation_rad";
-  static constexpr const char* resultants = "normal_force_N,shear_force_N,moment_Nm";
-  static constexpr const char* segment = ",sigma_{0}_Pa,tau_{0}_Pa,bonded_{0}";
-};
-
-template <>
-struct Columns<3>
-{
-  static constexpr const char* path = "normal_m,shear_1_m,shear_2_m,twist_rad,bend_1_rad,bend_2_rad";
-  static constexpr const char* resultants =
-    "normal_force_N,shear_force_1_N,shear_force_2_N,twist_moment_Nm,bend_moment_1_Nm,bend_moment_2_Nm";
-  static constexpr const char* segment = ",sigma_{0}_Pa,tau_1_{0}_Pa,tau_2_{0}_Pa,bonded_{0}";
-};
+constexpr Columns columns<3> = {
+  "normal_m,shear_1_m,shear_2_m,twist_rad,bend_1_rad,bend_2_rad",
+  "normal_force_N,shear_force_1_N,shear_force_2_N,twist_moment_Nm,bend_moment_1_Nm,bend_moment_2_Nm",
+  ",sigma_{0}_Pa,tau_1_{0}_Pa,tau_2_{0}_Pa,bonded_{0}"};
 
 template <int dim>
 std::string csv_header(const std::size_t n_segments)
 {
-  std::string header = Columns<dim>::resultants;
+  std::string header = columns<dim>.resultants;
   for (std::size_t i = 1; i <= n_segments; ++i)
-    header += fmt::format(fmt::runtime(Columns<dim>::segment), i);
+    header += fmt::format(fmt::runtime(columns<dim>.segment), i);
   return header + '\n';
 }
 
@@ -122,60 +118,41 @@ FaceMotion<dim, double> row_motion(const std::vector<double>& before, const std:
   return motion;
 }
 
-/// Throws InputError where a number is not finite.
-template <int dim, typename Update, typename StressOf>
-std::string csv_row(const FaceResultants<dim, double>& sum, const Segments<Update>& segments, const StressOf& stress_of)
-{
-  std::string row;
-  const auto append = [&row](const double value) {
-    if (!std::isfinite(value))
-      throw InputError(
-        "the response is beyond the range of numbers: a displacement, a rotation or a stiffness is far too large");
-    fmt::format_to(std::back_inserter(row), "{}{}", row.empty() ? "" : ",", value + 0.0); // adding zero turns -0 into 0
-  };
-  append(sum.normal_force);
-  for (const double force : sum.shear_force)
-    append(force);
-  for (const double moment : sum.moment)
-    append(moment);
-  for (std::size_t i = 0; i < segments.updates.size(); ++i)
-    {
-      const auto& update = segments.updates[i];
-      append(stress_of(i));
-      for (const double tau : update.state.shear_stress)
-        append(tau);
-      fmt::format_to(std::back_inserter(row), ",{:d}", update.state.bonded);
-    }
-  return row + '\n';
-}
-
 template <int dim, typename Law>
 std::string response(const Law& law, const typename Law::Parameters& joint, const Input& input)
 {
-  const auto path = read_csv(input.contact.path_file, Columns<dim>::path);
+  const auto path = read_csv(input.contact.path_file, columns<dim>.path);
   const Face<double> face = make_face<Law>(joint, input);
   const auto elements = face_elements<dim>(Law::division(joint));
   Segments<typename Law::template Update<double>> segments(joint, elements.size());
   std::string table = csv_header<dim>(elements.size());
   std::vector<double> before(dim + n_rotations<dim>, 0.0);
-  std::size_t n_rows = 0;
-  for (const std::vector<double>& now : path)
+  for (std::size_t row = 0; row < path.size(); ++row)
     {
-      ++n_rows;
-      const auto motion = row_motion<dim>(before, now);
+      const auto motion = row_motion<dim>(before, path[row]);
       const auto sum = law.template update<double>(face, elements, motion, segments);
-      try
+      const auto append = [&](const double value, const char* comma = ",") {
+        if (!std::isfinite(value))
+          throw InputError(fmt::format("{}: row {} below the header: the response is beyond the range of numbers: a "
+                                       "displacement, a rotation or a stiffness is far too large",
+                                       input.contact.path_file, row + 1));
+        fmt::format_to(std::back_inserter(table), "{}{}", comma, value + 0.0); // adding zero turns -0 into 0
+      };
+      append(sum.normal_force, "");
+      for (const double force : sum.shear_force)
+        append(force);
+      for (const double moment : sum.moment)
+        append(moment);
+      for (std::size_t i = 0; i < elements.size(); ++i)
         {
-          table += csv_row<dim>(sum, segments, [&](const std::size_t i) {
-            return normal_stress(law, face, elements[i], motion, segments.updates[i]);
-          });
+          const auto& update = segments.updates[i];
+          append(normal_stress(law, face, elements[i], motion, update));
+          for (const double tau : update.state.shear_stress)
+            append(tau);
+          fmt::format_to(std::back_inserter(table), ",{:d}", update.state.bonded);
         }
-      catch (const InputError& error)
-        {
-          throw InputError(
-            fmt::format("{}: row {} below the header: {}", input.contact.path_file, n_rows, error.what()));
-        }
-      before = now;
+      table += '\n';
+      before = path[row];
     }
   return table;
 }
@@ -212,7 +189,7 @@ int run_contact(const CommonOptions& options)
 {
   const Input input = read_input(options.input, {}, options.settings);
   const std::string table = contact_response(input, options.input);
-  const OutputFolder folder(options.output, options.input, write_over(options, places_of_contacts(), input));
+  const OutputFolder folder(options.output, options.input, write_over(options, places_of_contacts, input));
   const FolderLock lock(folder.path());
   const FileList list(folder.path());
   write_whole_file(folder.path() / "contact.csv", table);

@@ -7,18 +7,12 @@
 #include "app/programme/run_report.h"
 #include "app/programme/specimen_source.h"
 #include "app/run/interrupt.h"
-#include "app/run/launched.h"
 #include "app/run/provenance.h"
-#include "app/screen/progress.h"
 #include "base/append.h"
 #include "base/input_error.h"
 #include "base/ranks/ranks.h"
-#include "dem/lab/protocols/protocols.h"
 #include "dem/lab/seating.h"
-#include "report/sections/comparison.h"
 #include "report/sections/study_text.h"
-#include "report/sections/test_tables.h"
-#include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/trust.h"
 #include "runs/share_out.h"
@@ -34,13 +28,6 @@ namespace feldspar
 {
 namespace
 {
-std::optional<Reference> reference_of(const Input& input)
-{
-  if (input.reference_file.empty())
-    return std::nullopt;
-  return read_reference(input.reference_file, test_kinds());
-}
-
 std::string line_by_line(const std::vector<std::string>& sentences)
 {
   return sentences.empty() ? "" : fmt::format("{}\n", fmt::join(sentences, "\n"));
@@ -70,13 +57,7 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
                    [&](const FinishedTest& test) { return test.variant == variant.label; });
       if (!variant.label.empty())
         text += fmt::format("{}\n", variant.label);
-      const auto reference = reference_of(variant.input);
-      text += as_text(compare(of_variant, reference, {}, any_has_flaws(tests)), reference) + "\n";
-      if (const Table stages = stage_table(of_variant); !stages.rows.empty())
-        text += as_text(stages) + "\n";
-      if (const auto found = envelopes.find(variant.label);
-          found != envelopes.end() && found->second.data.points.size() > 1)
-        text += as_text(found->second) + "\n";
+      text += describe_tests(of_variant, reference_of(variant.input), envelopes, any_has_flaws(tests));
     }
   return text + trust_as_text(tests) + line_by_line(missing);
 }
@@ -85,24 +66,23 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
 template <int dim>
 void share_out_tests(const Run& run, Progress& progress)
 {
-  const auto all_variants = variants(run.input);
-  const auto orders = specimen_orders(all_variants);
-  check_memory_of_tests(all_variants, orders);
-  share_out_specimens<dim>(all_variants, orders, run.folder, progress);
+  const RunPlan plan(run.input);
+  check_memory_of_tests(plan);
+  share_out_specimens<dim>(plan, run.folder, progress);
   together_or_interrupted([&] {
     const auto own_tests = [&](const std::vector<Specimen<dim>>& known) {
-      const auto all = plan_tests(all_variants, orders, seeds_of(orders, known));
+      const auto all = plan_tests(plan, known);
       std::vector<LaboratoryOrder> own;
       for (const std::size_t k : share_of_this_process(longest_first(all)))
         own.push_back(all[k]);
       return own;
     };
-    const auto tests = own_tests(std::vector<Specimen<dim>>(orders.size()));
-    auto specimens = provide_specimens_of<dim>(tests, all_variants, orders, run.folder, progress);
+    const auto tests = own_tests(std::vector<Specimen<dim>>(plan.orders.size()));
+    auto specimens = provide_specimens_of<dim>(tests, plan, run.folder, progress);
     // The first process meets again what cannot be made, and reports it.
     if (!tests.empty() &&
         std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.is_periodic(); }))
-      run_programme(all_variants, own_tests(specimens), specimens, run.folder, progress, false);
+      run_programme(plan, own_tests(specimens), specimens, run.folder, progress, false);
     end_if_interrupted();
   });
 }
@@ -135,24 +115,20 @@ RunEnd test_alone(const Run& run, Progress& progress)
   const Input& input = run.input;
 
   // Make the rock.
-  const auto all_variants = variants(input);
-  const auto orders = specimen_orders(all_variants);
-  check_memory_of_tests(all_variants, orders);
-  auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
+  const RunPlan plan(input);
+  check_memory_of_tests(plan);
+  auto specimens = provide_specimens<dim>(plan, folder, progress);
   if (!input.specimen.specimen_file.empty())
     with_name_of(input_file, [&] { check_specimen_of_file(input, specimens.front()); });
 
   // Break it.
   check_that_one_fills_its_box(specimens);
-  const auto planned = plan_tests(all_variants, orders, seeds_of(orders, specimens));
-  const auto tests = run_programme(all_variants, planned, specimens, folder, progress);
-  const auto failed =
-    std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
+  const auto tests = run_programme(plan, plan_tests(plan, specimens), specimens, folder, progress);
   const auto has_nothing = [](const FinishedTest& test) {
     return !test.record.failure.empty() && test.record.curve.empty();
   };
   if (!tests.empty() && std::all_of(tests.begin(), tests.end(), has_nothing))
-    throw InputError(failed->record.failure);
+    throw InputError(tests.front().record.failure);
 
   // Report.
   const bool was_interrupted = interrupted();
@@ -162,12 +138,10 @@ RunEnd test_alone(const Run& run, Progress& progress)
   for (const auto& specimen : specimens)
     bodies.push_back(specimen.report);
   append(missing, beside_reference_body(input, bodies));
-  write_log(folder, describe_run(all_variants, specimens, tests, envelopes, missing), run.quiet);
+  write_log(folder, describe_run(plan.variants, specimens, tests, envelopes, missing), run.quiet);
   // Pictures are still to be made if the run was interrupted while it drew them.
-  return {was_interrupted || interrupted(),
-          failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
+  return {was_interrupted || interrupted(), first_failure(tests)};
 }
-
 } // namespace
 
 int run_lab(const CommonOptions& options)

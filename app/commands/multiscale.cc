@@ -1,5 +1,4 @@
 #include "app/commands/commands.h"
-#include "app/commands/rve_extract.h"
 #include "app/input/input.h"
 #include "app/processes/finite_elements.h"
 #include "app/programme/checks.h"
@@ -10,17 +9,11 @@
 #include "app/programme/sample_checks.h"
 #include "app/programme/specimen_source.h"
 #include "app/run/interrupt.h"
-#include "app/run/launched.h"
 #include "app/run/provenance.h"
 #include "base/append.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/ranks/ranks.h"
-#include "dem/lab/protocols/protocols.h"
-#include "report/sections/comparison.h"
-#include "report/sections/test_tables.h"
-#include "results/fits/run_envelopes.h"
-#include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/trust.h"
 
@@ -41,15 +34,7 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
     if (const auto reports = rock.reports(); !reports.empty())
       text +=
         fmt::format("The first of {} RVEs of seed {}\n{}\n", reports.size(), rock.seed, describe(reports.front()));
-  std::optional<Reference> reference;
-  if (!input.reference_file.empty())
-    reference = read_reference(input.reference_file, test_kinds());
-  text += as_text(compare(tests, reference), reference) + "\n";
-  if (const Table stages = stage_table(tests); !stages.rows.empty())
-    text += as_text(stages) + "\n";
-  if (const auto found = envelopes.find(""); found != envelopes.end() && found->second.data.points.size() > 1)
-    text += as_text(found->second) + "\n";
-  text += trust_as_text(tests);
+  text += describe_tests(tests, reference_of(input), envelopes) + trust_as_text(tests);
   for (const auto& test : tests)
     if (const RankBalance& of_ranks = test.bookkeeping.ranks; ranks::number() > 1 && of_ranks.mean > 0.0)
       text += fmt::format(
@@ -84,11 +69,9 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
                 std::count_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.was_made(); }),
                 planned.size()));
 
-  const auto failed =
-    std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
-  if (failed != tests.end() &&
+  if (!tests.empty() &&
       std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); }))
-    throw InputError(fmt::format("{}: {}", run.input_file.string(), failed->record.failure));
+    throw InputError(fmt::format("{}: {}", run.input_file.string(), tests.front().record.failure));
 
   // Report.
   const bool was_interrupted = ranks::any(interrupted());
@@ -103,8 +86,7 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     write_log(run.folder, describe_run(input, rocks, tests, envelopes, remarks), run.quiet);
   });
   // Pictures are still to be made if the run was interrupted while it drew them.
-  return {ranks::any(was_interrupted || interrupted()),
-          failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
+  return {ranks::any(was_interrupted || interrupted()), first_failure(tests)};
 }
 
 int run_on_all_ranks(const CommonOptions& options)
@@ -123,7 +105,7 @@ int run_on_all_ranks(const CommonOptions& options)
                                   for (const auto& remark : remarks)
                                     fmt::print(stderr, "feldspar: {}: {}\n", printable(file.string()), remark);
                               },
-                              [&](const Run& run) { return go(run, remarks); }, all_processes()};
+                              [&](const Run& run) { return go(run, remarks); }};
   return run_command(multiscale, options);
 }
 } // namespace

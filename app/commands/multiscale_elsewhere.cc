@@ -1,4 +1,3 @@
-#include "app/commands/check_input.h"
 #include "app/commands/commands.h"
 #include "app/run/other_program.h"
 

@@ -1,6 +1,4 @@
-#include "app/commands/check_input.h"
 #include "app/commands/commands.h"
-#include "app/commands/results_reference.h"
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "app/screen/print_result.h"
@@ -82,31 +80,22 @@ void print_found(const std::string& word)
 int run_parameters(const ParametersOptions& options)
 {
   if (options.check)
+    check_input(*options.check, options.settings, options.check_for);
+  else if (options.results)
+    print_results_reference();
+  else if (!options.section.empty() && entry_names(options.section).empty())
+    print_found(options.section);
+  else if (!options.section.empty())
+    print_sections(options.section, std::nullopt, options.markdown);
+  else
     {
-      check_input(*options.check, options.settings, options.check_for);
-      return 0;
+      print_result("{}", options.markdown ? "# Parameters\n\nWritten by `feldspar parameters --markdown`.\n\n"
+                                            "## Entries of a first study\n"
+                                          : "ENTRIES OF A FIRST STUDY\n");
+      print_sections("", true, options.markdown);
+      print_result("{}", options.markdown ? "\n## Further entries\n" : "FURTHER ENTRIES\n");
+      print_sections("", false, options.markdown);
     }
-  if (options.results)
-    {
-      print_results_reference();
-      return 0;
-    }
-  if (!options.section.empty() && entry_names(options.section).empty())
-    {
-      print_found(options.section);
-      return 0;
-    }
-  if (!options.section.empty())
-    {
-      print_sections(options.section, std::nullopt, options.markdown);
-      return 0;
-    }
-  print_result("{}", options.markdown ? "# Parameters\n\nWritten by `feldspar parameters --markdown`.\n\n"
-                                        "## Entries of a first study\n"
-                                      : "ENTRIES OF A FIRST STUDY\n");
-  print_sections("", true, options.markdown);
-  print_result("{}", options.markdown ? "\n## Further entries\n" : "FURTHER ENTRIES\n");
-  print_sections("", false, options.markdown);
   return 0;
 }
 } // namespace feldspar

@@ -27,7 +27,7 @@ int run_report(const ReportOptions& options)
     if (options.reference)
       inputs.push_back(*options.reference);
     if (!beside_results)
-      check_write_over(results, places_of_reports(), inputs);
+      check_write_over(results, places_of_reports, inputs);
   };
   const OutputFolder folder(beside_results ? order.result_folders.front() : options.output, "report",
                             beside_results || options.force ? write_over

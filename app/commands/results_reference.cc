@@ -1,5 +1,4 @@
-#include "app/commands/results_reference.h"
-
+#include "app/commands/commands.h"
 #include "app/screen/print_result.h"
 #include "coupling/rve/path_sample.h"
 #include "results/quantities.h"

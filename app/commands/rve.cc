@@ -8,10 +8,8 @@
 #include "app/programme/rve_results.h"
 #include "app/programme/specimen_source.h"
 #include "app/run/interrupt.h"
-#include "app/run/launched.h"
 #include "app/run/provenance.h"
 #include "app/run/run_record.h"
-#include "app/screen/progress.h"
 #include "coupling/rve/rve_file.h"
 #include "runs/paths.h"
 #include "runs/share_out.h"
@@ -38,14 +36,13 @@ Tensor<dim> turn_of_cell(const double angle)
 
 /// The paths of an input, by variants and specimens.
 template <int dim>
-std::vector<PathOrder<dim>> plan(const Input& input, const std::vector<Variant>& all_variants,
-                                 const std::vector<SpecimenOrder>& orders)
+std::vector<PathOrder<dim>> plan_paths(const Input& input, const RunPlan& plan)
 {
   const auto part = [](const std::string& name) { return name.empty() ? name : '_' + name; };
   const auto path = [&](const Variant& variant, const std::size_t s) -> PathOrder<dim> {
     const Input& of = variant.input;
     const std::string name = "rve" + part(variant.name_in_files) +
-                             (input.seeds.size() > 1 ? fmt::format("_seed_{}", orders[s].seed) : std::string());
+                             (input.seeds.size() > 1 ? fmt::format("_seed_{}", plan.orders[s].seed) : std::string());
     PathOrder<dim> order{s,
                          name,
                          variant.label,
@@ -69,10 +66,10 @@ std::vector<PathOrder<dim>> plan(const Input& input, const std::vector<Variant>&
     return order;
   };
   std::vector<PathOrder<dim>> paths;
-  for (std::size_t v = 0; v < all_variants.size(); ++v)
-    for (std::size_t s = 0; s < orders.size(); ++s)
-      if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
-        paths.push_back(path(all_variants[v], s));
+  for (std::size_t v = 0; v < plan.variants.size(); ++v)
+    for (std::size_t s = 0; s < plan.orders.size(); ++s)
+      if (std::count(plan.orders[s].variants.begin(), plan.orders[s].variants.end(), v) > 0)
+        paths.push_back(path(plan.variants[v], s));
   return paths;
 }
 
@@ -94,12 +91,11 @@ std::vector<FinishedRve<dim>> run_paths_on_board(const std::vector<PathOrder<dim
 template <int dim>
 void share_out_paths(const Run& run, Progress& progress)
 {
-  const auto all_variants = variants(run.input);
-  const auto orders = specimen_orders(all_variants);
-  share_out_specimens<dim>(all_variants, orders, run.folder, progress);
+  const RunPlan plan(run.input);
+  share_out_specimens<dim>(plan, run.folder, progress);
   together_or_interrupted([&] {
-    auto paths = share_of_this_process(plan<dim>(run.input, all_variants, orders));
-    const auto specimens = provide_specimens_of<dim>(paths, all_variants, orders, run.folder, progress);
+    auto paths = share_of_this_process(plan_paths<dim>(run.input, plan));
+    const auto specimens = provide_specimens_of<dim>(paths, plan, run.folder, progress);
     std::erase_if(paths, [&](const auto& path) { return !specimens[path.specimen].is_periodic(); });
     if (!paths.empty())
       run_paths_on_board(paths, specimens, run.folder, progress);
@@ -113,16 +109,15 @@ RunEnd strain_alone(const Run& run, Progress& progress)
   const Input& input = run.input;
 
   // Make the rock.
-  const auto all_variants = variants(input);
-  const auto orders = specimen_orders(all_variants);
-  const auto specimens = provide_specimens<dim>(all_variants, orders, run.folder, progress);
+  const RunPlan plan(input);
+  const auto specimens = provide_specimens<dim>(plan, run.folder, progress);
   with_name_of(run.input_file, [&] {
     for (const auto& specimen : specimens)
       check_cell(specimen, "a representative volume");
   });
 
   // Strain it.
-  const auto rves = run_paths_on_board(plan<dim>(input, all_variants, orders), specimens, run.folder, progress);
+  const auto rves = run_paths_on_board(plan_paths<dim>(input, plan), specimens, run.folder, progress);
 
   // Report.
   const bool was_interrupted = interrupted();
@@ -136,11 +131,8 @@ RunEnd strain_alone(const Run& run, Progress& progress)
   for (const std::string& line : beside_reference_body(input, bodies))
     text += line + "\n";
   write_log(run.folder, text, run.quiet);
-  const auto failed =
-    std::find_if(rves.begin(), rves.end(), [](const FinishedRve<dim>& rve) { return !rve.record.failure.empty(); });
-  return {was_interrupted, failed == rves.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
+  return {was_interrupted, first_failure(rves)};
 }
-
 } // namespace
 
 int run_rve(const CommonOptions& options)

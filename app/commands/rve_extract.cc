@@ -1,5 +1,4 @@
-#include "app/commands/rve_extract.h"
-
+#include "app/commands/commands.h"
 #include "app/programme/multiscale_run.h"
 #include "app/programme/run_board.h"
 #include "app/run/file_list.h"

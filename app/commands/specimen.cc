@@ -20,20 +20,19 @@ namespace
 template <int dim>
 int make_specimens(const CommonOptions& options, const Input& input)
 {
-  const OutputFolder folder(options.output, options.input, write_over(options, places_of_specimens(), input));
+  const OutputFolder folder(options.output, options.input, write_over(options, places_of_specimens, input));
   const FolderLock lock(folder.path());
   const FileList list(folder.path());
   Progress progress(options.quiet);
   watch_for_interrupt(!options.quiet);
 
-  const auto all_variants = variants(input);
-  const auto orders = specimen_orders(all_variants);
-  for (const SpecimenOrder& order : orders) // with --force: one that lies there already is another input's
+  const RunPlan plan(input);
+  for (const SpecimenOrder& order : plan.orders) // with --force: one that lies there already is another input's
     std::filesystem::remove(folder.path() / (order.name + ".h5"));
   std::vector<Specimen<dim>> specimens;
   try
     {
-      specimens = provide_specimens<dim>(all_variants, orders, folder.path(), progress);
+      specimens = provide_specimens<dim>(plan, folder.path(), progress);
     }
   catch (const Interrupted&)
     {
@@ -43,11 +42,11 @@ int make_specimens(const CommonOptions& options, const Input& input)
                  printable(folder.path().string()));
       return exit_code::interrupted;
     }
-  for (std::size_t k = 0; k < orders.size(); ++k)
+  for (std::size_t k = 0; k < specimens.size(); ++k)
     {
       if (!options.quiet)
         print_result("\nSeed {}\n{}{}", specimens[k].seed, describe(specimens[k].report), describe(specimens[k].flaws));
-      print_result("{}\n", (folder.path() / (orders[k].name + ".h5")).string());
+      print_result("{}\n", (folder.path() / (plan.orders[k].name + ".h5")).string());
     }
   return 0;
 }

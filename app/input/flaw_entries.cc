@@ -1,12 +1,11 @@
 #include "app/input/flaw_entries.h"
 
+#include "app/input/entry_parameter.h"
 #include "app/input/maps/traces.h"
-#include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
-#include "base/readable_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,10 +14,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <functional>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -99,32 +95,29 @@ public:
     return std::all_of(words.begin(), words.end(), is_given) && std::none_of(others.begin(), others.end(), is_given);
   }
 
-  double positive_length(const std::string_view word) const
+  /// A number in SI; its range is given in `unit`.
+  double number(const std::string_view word, const Range& range, const Measure measure = Measure::number,
+                const std::string_view unit = "") const
   {
-    return read(word, [](const std::string_view text) {
-      const double value = parse_quantity(text, length);
-      if (!(value > 0.0))
-        throw InputError("must be > 0 mm");
-      return value;
-    });
+    return read(word, [&](const std::string_view text) { return read_number(text, measure, unit, range); });
   }
 
-  double length_from_zero(const std::string_view word) const
+  /// The same; none where it is not given.
+  std::optional<double> number_if_given(const std::string_view word, const Range& range,
+                                        const Measure measure = Measure::number, const std::string_view unit = "") const
   {
-    return read(word, [](const std::string_view text) {
-      const double value = parse_quantity(text, length);
-      if (!(value >= 0.0))
-        throw InputError("must be >= 0 mm");
-      return value;
-    });
+    return has(word) ? std::optional(number(word, range, measure, unit)) : std::nullopt;
+  }
+
+  double positive_length(const std::string_view word) const
+  {
+    return number(word, ranges::above_zero, Measure::length, "mm");
   }
 
   /// 0 where it is not given.
   double angle_or_zero(const std::string_view word) const
   {
-    if (!has(word))
-      return 0.0;
-    return read(word, [](const std::string_view text) { return parse_quantity(text, angle); });
+    return has(word) ? read(word, [](const std::string_view text) { return parse_quantity(text, angle); }) : 0.0;
   }
 
   template <int dim>
@@ -159,29 +152,6 @@ public:
             throw InputError("has the same point twice in a row");
         }
       return points;
-    });
-  }
-
-  double share(const std::string_view word) const
-  {
-    return read(word, [](const std::string_view text) {
-      const double value = parse_number(text);
-      if (!(value > 0.0 && value <= 1.0))
-        throw InputError("must lie in (0, 1]");
-      return value;
-    });
-  }
-
-  /// Value of at least 0; none where it is not given.
-  std::optional<double> from_zero(const std::string_view word, const Dimension* const dimension) const
-  {
-    if (!has(word))
-      return std::nullopt;
-    return read(word, [=](const std::string_view text) {
-      const double value = dimension ? parse_quantity(text, *dimension) : parse_number(text);
-      if (!(value >= 0.0))
-        throw InputError("must be >= 0");
-      return value;
     });
   }
 
@@ -254,7 +224,7 @@ Shape read_slot(const Quantities& given)
       "is given by \"from X, Y mm to X, Y mm width W mm\" or \"centre X, Y mm length L mm angle D deg width W "
       "mm\"");
   const auto [from, to] = read_line(given);
-  return Slot{from, to, given.length_from_zero("width")};
+  return Slot{from, to, given.number("width", ranges::from_zero, Measure::length, "mm")};
 }
 
 constexpr std::array<std::string_view, 7> words_of_smooth_sides{
@@ -271,21 +241,14 @@ std::optional<SmoothSides> read_smooth_sides(const Quantities& given)
       return std::nullopt;
     }
   SmoothSides sides;
-  sides.normal_stiffness = given.from_zero("normal-stiffness", &plane_stiffness);
-  sides.shear_stiffness = given.from_zero("shear-stiffness", &plane_stiffness);
-  for (const auto& [word, value] :
-       {std::pair("normal-stiffness", sides.normal_stiffness), std::pair("shear-stiffness", sides.shear_stiffness)})
-    if (value && !(*value > 0.0))
-      throw InputError(fmt::format("{}: must be > 0 GPa/mm", word));
-  sides.friction = given.from_zero("friction", nullptr);
-  sides.dilation_angle = given.from_zero("dilation", &angle);
-  sides.tensile_strength = given.from_zero("tensile-strength", &stress);
-  sides.cohesion = given.from_zero("cohesion", &stress);
-  sides.friction_angle = given.from_zero("friction-angle", &angle);
-  for (const auto& [word, value] :
-       {std::pair("dilation", sides.dilation_angle), std::pair("friction-angle", sides.friction_angle)})
-    if (value && !(*value < 0.5 * std::numbers::pi))
-      throw InputError(fmt::format("{}: must lie in [0 deg, 90 deg)", word));
+  constexpr Range steepness{'[', 0.0, 90.0, ')'};
+  sides.normal_stiffness = given.number_if_given("normal-stiffness", ranges::above_zero, Measure::stiffness, "GPa/mm");
+  sides.shear_stiffness = given.number_if_given("shear-stiffness", ranges::above_zero, Measure::stiffness, "GPa/mm");
+  sides.friction = given.number_if_given("friction", ranges::from_zero);
+  sides.dilation_angle = given.number_if_given("dilation", steepness, Measure::angle, "deg");
+  sides.tensile_strength = given.number_if_given("tensile-strength", ranges::from_zero, Measure::stress, "MPa");
+  sides.cohesion = given.number_if_given("cohesion", ranges::from_zero, Measure::stress, "MPa");
+  sides.friction_angle = given.number_if_given("friction-angle", steepness, Measure::angle, "deg");
   return sides;
 }
 
@@ -317,8 +280,7 @@ Shape read_disc_flaw(const Quantities& given)
 Shape read_joint_set(const Quantities& given)
 {
   JointSet set{given.angle_or_zero("angle"), given.positive_length("spacing")};
-  if (given.has("persistence"))
-    set.persistence = given.share("persistence");
+  set.persistence = given.number_if_given("persistence", {'(', 0.0, 1.0, ']'}).value_or(set.persistence);
   if (given.has("trace-length") != (set.persistence < 1.0))
     throw InputError(set.persistence < 1.0
                        ? "trace-length is missing; with a persistence below 1 traces have a length"
@@ -431,21 +393,11 @@ std::vector<Entry<Input>> flaw_entries()
     {"Traces file",
      Entry<Input>::Text{"", std::string(none_or_a_file),
                         [](Input& input, const std::string_view text) {
-                          input.flaws.traces.clear();
-                          input.flaws.traces_file.clear();
-                          input.flaws.left_out.clear();
-                          if (text.empty() || text == none)
-                            return;
-                          const std::filesystem::path file = input.file_named(text);
-                          std::error_code ignored;
-                          if (!std::filesystem::exists(file, ignored))
-                            throw InputError(fmt::format("there is no file {}", excerpt(file.string(), 300)));
-                          if (const std::string objection = objection_to_reading(file); !objection.empty())
-                            throw InputError(fmt::format("{} {}", excerpt(file.string(), 300), objection));
-                          Traces traces = read_traces(file);
+                          input.flaws.traces_file = readable_file(input, text);
+                          Traces traces =
+                            input.flaws.traces_file.empty() ? Traces() : read_traces(input.flaws.traces_file);
                           input.flaws.traces = std::move(traces.shapes);
                           input.flaws.left_out = std::move(traces.left_out);
-                          input.flaws.traces_file = file.string();
                         },
                         [](const Input& input) {
                           return input.flaws.traces_file.empty() ? std::string(none) : input.flaws.traces_file;

@@ -154,10 +154,6 @@ std::vector<std::optional<double>> read_direction(const std::string_view text)
     return direction;
   for (const std::string_view piece : split_at_commas(text))
     direction.push_back(piece == free_component ? std::nullopt : std::optional(parse_number(piece)));
-  if (direction.size() != 3 && direction.size() != 6)
-    throw InputError(fmt::format("{} component(s); there must be 3: xx, yy, xy; in three dimensions 6: xx, yy, zz, yz, "
-                                 "xz, xy",
-                                 direction.size()));
   if (std::none_of(direction.begin(), direction.end(), [](const auto& entry) { return entry.value_or(0.0) != 0.0; }))
     throw InputError("at least one component must be a number other than 0");
   return direction;
@@ -230,25 +226,21 @@ std::string write_direction(const std::vector<std::optional<double>>& direction)
 
 } // namespace
 
-Entry<Input> test_list_entry()
-{
-  return {"List",
-          Entry<Input>::Text{"", names(test_kinds()),
-                             [](Input& input, const std::string_view text) { input.test_list = read_tests(text); },
-                             [](const Input& input) { return names(input.test_list); }},
-          "the tests to be made, separated by commas",
-          {.basic = true}};
-}
-
-Entry<Input> confinements_entry()
+std::vector<Entry<Input>> test_list_entries()
 {
   return {
-    "Confinements",
-    Entry<Input>::Text{"MPa", "> 0 MPa each",
-                       [](Input& input, const std::string_view text) { input.confinements = read_confinements(text); },
-                       [](const Input& input) { return write_confinements(input.confinements); }},
-    "pressures of the triaxial tests, normal stresses of direct shear, separated by commas",
-    {.basic = true}};
+    {"List",
+     Entry<Input>::Text{"", names(test_kinds()),
+                        [](Input& input, const std::string_view text) { input.test_list = read_tests(text); },
+                        [](const Input& input) { return names(input.test_list); }},
+     "the tests to be made, separated by commas",
+     {.basic = true}},
+    {"Confinements",
+     Entry<Input>::Text{"MPa", "> 0 MPa each",
+                        [](Input& input, const std::string_view text) { input.confinements = read_confinements(text); },
+                        [](const Input& input) { return write_confinements(input.confinements); }},
+     "pressures of the triaxial tests, normal stresses of direct shear, separated by commas",
+     {.basic = true}}};
 }
 
 Entry<Input> checkpoint_entry()
@@ -406,18 +398,14 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
                        "largest gap that gets a joint, over the mean radius")};
 }
 
-Entry<Input> reference_entry()
+std::vector<Entry<Input>> report_entries()
 {
-  return entry::file("Reference file", &Input::reference_file,
-                     "figures of the rock and of other models (JSON) to set the results beside", {.basic = true});
-}
-
-Entry<Input> reference_results_entry()
-{
-  return entry::file(
-    "Reference results", &Input::reference_results,
-    "the summary.json of tests on another body of the same rock, such as that of `feldspar lab` "
-    "for a `feldspar multiscale`: its installation gap, coordination number and porosity are set beside "
-    "those of this run, and another gap is said to be one");
+  return {
+    entry::file("Reference file", &Input::reference_file,
+                "figures of the rock and of other models (JSON) to set the results beside", {.basic = true}),
+    entry::file("Reference results", &Input::reference_results,
+                "the summary.json of tests on another body of the same rock, such as that of `feldspar lab` "
+                "for a `feldspar multiscale`: its installation gap, coordination number and porosity are set beside "
+                "those of this run, and another gap is said to be one")};
 }
 } // namespace feldspar

@@ -8,8 +8,7 @@
 /// The entries that fill the structs of app/input/input.h, lists and paths among them.
 namespace feldspar
 {
-Entry<Input> test_list_entry();
-Entry<Input> confinements_entry();
+std::vector<Entry<Input>> test_list_entries();
 Entry<Input> checkpoint_entry();
 std::vector<Entry<VariantParameters>> variant_entries();
 /// An entry of several values by its name, Section/Entry; throws InputError for one that cannot vary.
@@ -19,6 +18,5 @@ std::vector<Entry<ContactParameters>> contact_entries();
 Entry<ContactParameters> contact_path_entry();
 std::vector<Entry<StrainPathParameters>> strain_path_entries();
 std::vector<Entry<CalibrationParameters>> calibration_list_entries();
-Entry<Input> reference_entry();
-Entry<Input> reference_results_entry();
+std::vector<Entry<Input>> report_entries();
 } // namespace feldspar

@@ -25,58 +25,48 @@ namespace feldspar
 {
 namespace
 {
-/// The table as it grows, section by section.
-class Table
-{
-public:
-  template <typename P>
-  void add(const std::string_view section, P Input::*const part, const std::vector<Entry<P>>& entries)
-  {
-    for (const Entry<P>& one : entries)
-      parameters.push_back(parameter_of(section, within<Input>(
-                                                   one, [part](const Input& input) -> const P& { return input.*part; },
-                                                   [part](Input& input) -> P& { return input.*part; })));
-  }
-
-  void add(const std::string_view section, const std::vector<Entry<Input>>& entries)
-  {
-    for (const Entry<Input>& one : entries)
-      parameters.push_back(parameter_of(section, one));
-  }
-
-  std::vector<Parameter> parameters;
-};
-
 std::vector<Parameter> make_parameter_table()
 {
-  Table table;
-  table.add("Specimen", &Input::specimen, specimen_entries());
-  table.add("Flat joint", &Input::flat_joint, flat_joint_entries());
-  table.add("Softening flat joint", &Input::softening_flat_joint, softening_flat_joint_entries());
-  table.add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
-  table.add("Particle contact", &Input::particle_contact, particle_contact_entries());
-  table.add("Smooth joint", &Input::smooth_joint, smooth_joint_entries());
-  table.add("Mineral grains", &Input::mineral_grains, mineral_grain_entries());
-  table.add("Clumps", &Input::clumps, clump_entries());
-  table.add("Flaws", flaw_entries());
-  table.add("Dynamics", &Input::dynamics, dynamics_entries());
-  table.add("Tests", {test_list_entry(), confinements_entry()});
-  table.add("Tests", &Input::tests, test_entries());
-  table.add("Tests", {checkpoint_entry()});
-  table.add("Variants", &Input::variants, variant_entries());
-  table.add("Seeds", {seeds_entry()});
-  table.add("Contact", &Input::contact, contact_entries());
-  table.add("Contact path", &Input::contact, {contact_path_entry()});
-  table.add("Strain path", &Input::strain_path, strain_path_entries());
-  table.add("Representative volume", &Input::equilibrium, equilibrium_entries());
-  table.add("Representative volume", &Input::boundary, boundary_entries());
-  table.add("Sample", &Input::sample, sample_entries());
-  table.add("Continuum", &Input::continuum, continuum_entries());
-  table.add("Calibration", &Input::calibration, calibration_list_entries());
-  table.add("Calibration", &Input::calibration, calibration_entries());
-  table.add("Report", {reference_entry(), reference_results_entry()});
-  return table.parameters;
+  std::vector<Parameter> table;
+  const auto add_own = [&](const std::string_view section, const std::vector<Entry<Input>>& entries) {
+    for (const Entry<Input>& one : entries)
+      table.push_back(parameter_of(section, one));
+  };
+  const auto add = [&]<typename P>(const std::string_view section, P Input::*const part,
+                                   const std::vector<Entry<P>>& entries) {
+    for (const Entry<P>& one : entries)
+      table.push_back(parameter_of(section, within<Input>(
+                                              one, [part](const Input& input) -> const P& { return input.*part; },
+                                              [part](Input& input) -> P& { return input.*part; })));
+  };
+  add("Specimen", &Input::specimen, specimen_entries());
+  add("Flat joint", &Input::flat_joint, flat_joint_entries());
+  add("Softening flat joint", &Input::softening_flat_joint, softening_flat_joint_entries());
+  add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
+  add("Particle contact", &Input::particle_contact, particle_contact_entries());
+  add("Smooth joint", &Input::smooth_joint, smooth_joint_entries());
+  add("Mineral grains", &Input::mineral_grains, mineral_grain_entries());
+  add("Clumps", &Input::clumps, clump_entries());
+  add_own("Flaws", flaw_entries());
+  add("Dynamics", &Input::dynamics, dynamics_entries());
+  add_own("Tests", test_list_entries());
+  add("Tests", &Input::tests, test_entries());
+  add_own("Tests", {checkpoint_entry()});
+  add("Variants", &Input::variants, variant_entries());
+  add_own("Seeds", {seeds_entry()});
+  add("Contact", &Input::contact, contact_entries());
+  add("Contact path", &Input::contact, std::vector{contact_path_entry()});
+  add("Strain path", &Input::strain_path, strain_path_entries());
+  add("Representative volume", &Input::equilibrium, equilibrium_entries());
+  add("Representative volume", &Input::boundary, boundary_entries());
+  add("Sample", &Input::sample, sample_entries());
+  add("Continuum", &Input::continuum, continuum_entries());
+  add("Calibration", &Input::calibration, calibration_list_entries());
+  add("Calibration", &Input::calibration, calibration_entries());
+  add_own("Report", report_entries());
+  return table;
 }
+
 /// Parameters that no entry fills by itself: texts of a form of their own, and what libraries make of an entry.
 std::vector<std::pair<ParameterId, InputPlace>> further_places()
 {

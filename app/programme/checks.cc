@@ -7,7 +7,6 @@
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
 #include "dem/laws/joint_laws.h"
-#include "results/folder/reference.h"
 
 #include <fmt/format.h>
 
@@ -32,10 +31,10 @@ void with_name_of(const std::filesystem::path& input_file, const std::function<v
     }
 }
 
-void check_reference(const Input& input)
+std::optional<Reference> reference_of(const Input& input)
 {
-  if (!input.reference_file.empty())
-    read_reference(input.reference_file, test_kinds());
+  return input.reference_file.empty() ? std::nullopt
+                                      : std::optional(read_reference(input.reference_file, test_kinds()));
 }
 
 void check_equilibria(const SpecimenParameters& specimen, const std::string_view remedy)
@@ -126,7 +125,7 @@ void check_laboratory_input(const Input& input, const std::filesystem::path& inp
     for (const Variant& variant : variants(input))
       check_specimen_and_tests(variant.input);
   });
-  check_reference(input);
+  reference_of(input);
   with_name_of(input_file, [&] { reference_body(input); });
 }
 

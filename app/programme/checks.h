@@ -3,12 +3,12 @@
 #include "app/input/input.h"
 #include "app/input/parameter_table.h"
 #include "dem/specimen/specimen.h"
+#include "results/folder/reference.h"
 
 #include <filesystem>
 #include <functional>
-#include <string>
+#include <optional>
 #include <string_view>
-#include <vector>
 
 /// Inputs that a command cannot run: all that can be told before any work. Each function throws InputError, with the
 /// input's name in front where an entry of it is wrong.
@@ -17,8 +17,8 @@ namespace feldspar
 /// Runs a check, and puts the name of the input in front of what it refuses.
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check);
 
-/// A reference file that does not serve is reported by its own name.
-void check_reference(const Input& input);
+/// The reference of an input, if it names one; a file that does not serve is reported by its own name.
+std::optional<Reference> reference_of(const Input& input);
 
 /// Refuses clumps and mineral grains in representative volumes, which do not have them; to be called before the check
 /// of the shape, which is another for them.

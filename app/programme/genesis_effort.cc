@@ -122,21 +122,13 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
 
 namespace
 {
-/// Efforts of all specimens.
-std::vector<GenesisEffort> efforts(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
-{
-  std::vector<GenesisEffort> all;
-  for (const SpecimenOrder& order : orders)
-    all.push_back(expected_effort(variants[order.variants.front()].input.specimen));
-  return all;
-}
-
-/// Number of the largest, and memory of all, which lie there at the same time.
-GenesisEffort together(const std::vector<GenesisEffort>& all)
+/// Number of grains of the largest, and memory of all, which lie there at the same time.
+GenesisEffort together(const RunPlan& plan, const std::vector<SpecimenOrder>& orders)
 {
   GenesisEffort sum;
-  for (const GenesisEffort& one : all)
+  for (const SpecimenOrder& order : orders)
     {
+      const GenesisEffort one = expected_effort(plan.input_of(order).specimen);
       sum.n_grains = std::max(sum.n_grains, one.n_grains);
       sum.bytes += one.bytes;
       sum.seconds += one.seconds;
@@ -145,9 +137,9 @@ GenesisEffort together(const std::vector<GenesisEffort>& all)
 }
 } // namespace
 
-std::string describe_effort(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
+std::string describe_effort(const RunPlan& plan, const std::vector<SpecimenOrder>& orders)
 {
-  const GenesisEffort sum = together(efforts(variants, orders));
+  const GenesisEffort sum = together(plan, orders);
   if (sum.n_grains == 0.0)
     return "";
   const double n_at_a_time = std::min(double(orders.size()), n_threads_served());
@@ -157,10 +149,10 @@ std::string describe_effort(const std::vector<Variant>& variants, const std::vec
                      load_in_words(sum.bytes));
 }
 
-void check_memory(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
+void check_memory(const RunPlan& plan, const std::vector<SpecimenOrder>& orders)
 {
   const std::optional<double> free = free_memory();
-  const GenesisEffort sum = together(efforts(variants, orders));
+  const GenesisEffort sum = together(plan, orders);
   if (free && sum.bytes > *free)
     throw InputError(fmt::format("Specimen: {} specimen(s) of some {:.1e} grains need some {:.1f} GB of memory, and "
                                  "{:.1f} GB are free; make them smaller, the grains larger or the seeds fewer",

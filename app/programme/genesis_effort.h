@@ -36,8 +36,8 @@ struct GenesisEffort
 GenesisEffort expected_effort(const SpecimenParameters& specimen);
 
 /// The effort of all of them in a sentence; empty where nothing is made.
-std::string describe_effort(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders);
+std::string describe_effort(const RunPlan& plan, const std::vector<SpecimenOrder>& orders);
 
 /// Refuses specimens that would not fit into the memory that is free now: throws InputError, before any work.
-void check_memory(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders);
+void check_memory(const RunPlan& plan, const std::vector<SpecimenOrder>& orders);
 } // namespace feldspar

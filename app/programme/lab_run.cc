@@ -21,18 +21,19 @@ LaboratoryOrder laboratory_order(const TestCase& test, const Input& input, const
   return order;
 }
 
-std::vector<LaboratoryOrder> plan_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
-                                        const std::vector<std::uint64_t>& seeds)
+template <int dim>
+std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<Specimen<dim>>& specimens)
 {
   std::vector<LaboratoryOrder> planned;
   const auto add_tests = [&](const std::size_t v, const std::size_t s) {
-    const Variant& variant = variants[v];
+    const Variant& variant = plan.variants[v];
+    const std::uint64_t seed = specimens[s].grains.size() > 0 ? specimens[s].seed : plan.orders[s].seed;
     for (const TestCase& test : test_cases(variant.input.test_list, variant.input.confinements))
       {
         const std::string& own = variant.name_in_files;
         const std::string group = own.empty() ? name(test) : fmt::format("{}_{}", name(test), own);
         LaboratoryOrder& order =
-          planned.emplace_back(laboratory_order(test, variant.input, fmt::format("{}_seed_{}", group, seeds[s])));
+          planned.emplace_back(laboratory_order(test, variant.input, fmt::format("{}_seed_{}", group, seed)));
         order.specimen = s;
         order.variant = v;
         order.group = group;
@@ -40,27 +41,27 @@ std::vector<LaboratoryOrder> plan_tests(const std::vector<Variant>& variants, co
         order.settings = variant.settings;
       }
   };
-  for (std::size_t v = 0; v < variants.size(); ++v)
-    for (std::size_t s = 0; s < orders.size(); ++s)
-      if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
+  for (std::size_t v = 0; v < plan.variants.size(); ++v)
+    for (std::size_t s = 0; s < plan.orders.size(); ++s)
+      if (std::count(plan.orders[s].variants.begin(), plan.orders[s].variants.end(), v) > 0)
         add_tests(v, s);
   return planned;
 }
 
 template <int dim>
-std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<LaboratoryOrder>& tests,
+std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<LaboratoryOrder>& tests,
                                         std::vector<Specimen<dim>>& specimens, const std::filesystem::path& folder,
                                         Progress& progress, const bool tells_failures)
 {
   std::vector<BoardPart> parts;
   for (const LaboratoryOrder& one : tests)
     {
-      const Input& input = variants[one.variant].input;
+      const Input& input = plan.variants[one.variant].input;
       const double rate = (*protocol_of(one.test.kind).strain_rate)(input.tests);
       parts.push_back(
         {one.name, 1.0, BoardTest{one.test, &input, cost_of_specimen(specimens[one.specimen].grains.size(), rate)}});
     }
-  progress.remark(describe_effort<dim>(tests, variants, specimens));
+  progress.remark(describe_effort<dim>(tests, plan.variants, specimens));
   RunBoard board(progress, "tests", parts, tells_failures);
   auto finished_tests = run_tests(tests, specimens, folder, board);
   const auto n_made = std::count_if(finished_tests.begin(), finished_tests.end(),
@@ -72,10 +73,12 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
   return finished_tests;
 }
 
-template std::vector<FinishedTest> run_programme<2>(const std::vector<Variant>&, const std::vector<LaboratoryOrder>&,
+template std::vector<LaboratoryOrder> plan_tests<2>(const RunPlan&, const std::vector<Specimen<2>>&);
+template std::vector<LaboratoryOrder> plan_tests<3>(const RunPlan&, const std::vector<Specimen<3>>&);
+template std::vector<FinishedTest> run_programme<2>(const RunPlan&, const std::vector<LaboratoryOrder>&,
                                                     std::vector<Specimen<2>>&, const std::filesystem::path&, Progress&,
                                                     bool);
-template std::vector<FinishedTest> run_programme<3>(const std::vector<Variant>&, const std::vector<LaboratoryOrder>&,
+template std::vector<FinishedTest> run_programme<3>(const RunPlan&, const std::vector<LaboratoryOrder>&,
                                                     std::vector<Specimen<3>>&, const std::filesystem::path&, Progress&,
                                                     bool);
 } // namespace feldspar

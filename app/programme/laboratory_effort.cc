@@ -109,20 +109,21 @@ std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std
                      bytes / 1e6, duration_in_words(seconds), load_in_words(effort.bytes));
 }
 
-void check_memory_of_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
+void check_memory_of_tests(const RunPlan& plan)
 {
   double of_specimens = 0.0;
   double most_grains = 0.0;
   double n_tests = 0.0;
   int dimension = 2;
-  for (const SpecimenOrder& order : orders)
+  for (const SpecimenOrder& order : plan.orders)
     {
-      const GenesisEffort genesis = expected_effort(variants[order.variants.front()].input.specimen);
+      const SpecimenParameters& specimen = plan.input_of(order).specimen;
+      const GenesisEffort genesis = expected_effort(specimen);
       of_specimens += genesis.bytes;
       most_grains = std::max(most_grains, genesis.n_grains);
-      dimension = variants[order.variants.front()].input.specimen.dimension;
+      dimension = specimen.dimension;
       for (const std::size_t v : order.variants)
-        n_tests += double(test_cases(variants[v].input.test_list, variants[v].input.confinements).size());
+        n_tests += double(test_cases(plan.variants[v].input.test_list, plan.variants[v].input.confinements).size());
     }
   const double joints_of_grain = dimension == 2 ? 2.1 : 2.5;
   const double of_tests = bytes_of_tests(dimension, n_tests, most_grains, joints_of_grain * most_grains);
@@ -131,7 +132,8 @@ void check_memory_of_tests(const std::vector<Variant>& variants, const std::vect
     throw InputError(fmt::format("Tests: {:.0f} test(s) of {} specimen(s) of some {:.1e} grains need some {:.1f} GB of "
                                  "memory, and {:.1f} GB are free; make the specimens smaller, the tests or variants "
                                  "fewer, or use fewer threads (--threads)",
-                                 n_tests, orders.size(), most_grains, (of_specimens + of_tests) / 1e9, *free / 1e9));
+                                 n_tests, plan.orders.size(), most_grains, (of_specimens + of_tests) / 1e9,
+                                 *free / 1e9));
 }
 
 template TestEffort expected_effort<2>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,

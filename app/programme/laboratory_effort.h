@@ -34,5 +34,5 @@ std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std
 
 /// Refuses tests that would not fit into the memory that is free before their specimens are made: throws InputError, before any
 /// work.
-void check_memory_of_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders);
+void check_memory_of_tests(const RunPlan& plan);
 } // namespace feldspar

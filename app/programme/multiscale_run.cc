@@ -37,13 +37,12 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
 {
   Input of_packings = input;
   of_packings.seeds = packing_seeds(input);
-  const std::vector<Variant> one{{"", of_packings}};
-  const auto orders = specimen_orders(one);
+  const RunPlan plan(of_packings);
   const std::filesystem::path of_rves = folder_of_rves(folder);
   ranks::first([&] { std::filesystem::create_directories(of_rves); });
   if (ranks::number() > 1) // each rank makes its share; then all read all
-    share_out_specimens<dim>(one, orders, of_rves, progress);
-  auto specimens = provide_specimens<dim>(one, orders, of_rves, progress);
+    share_out_specimens<dim>(plan, of_rves, progress);
+  auto specimens = provide_specimens<dim>(plan, of_rves, progress);
   std::vector<Rock> rocks;
   for (std::size_t k = 0; k < specimens.size(); ++k)
     {

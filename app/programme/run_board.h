@@ -4,7 +4,6 @@
 #include "app/run/interrupt.h"
 #include "app/screen/expected_length.h"
 #include "app/screen/progress.h"
-#include "app/screen/stage_length.h"
 #include "laboratory/curve.h"
 #include "laboratory/kinds.h"
 #include "laboratory/peak.h"

@@ -9,11 +9,12 @@
 #include "base/whole_file.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/report.h"
+#include "report/sections/comparison.h"
+#include "report/sections/test_tables.h"
 #include "results/fits/strength_data.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/csv_tables.h"
 #include "results/folder/field_output.h"
-#include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/folder/sample_field_output.h"
 
@@ -101,6 +102,18 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
   if (!tests.empty())
     append(reported.missing, report_on({{folder}, {}, {}, folder, reported.envelopes}, progress, EndOfPatience()));
   return reported;
+}
+
+std::string describe_tests(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
+                           const RunEnvelopes& envelopes, const bool beside_flaws)
+{
+  std::string text = as_text(compare(tests, reference, {}, beside_flaws), reference) + "\n";
+  if (const Table stages = stage_table(tests); !stages.rows.empty())
+    text += as_text(stages) + "\n";
+  if (const auto found = envelopes.find(tests.empty() ? "" : tests.front().variant);
+      found != envelopes.end() && found->second.data.points.size() > 1)
+    text += as_text(found->second) + "\n";
+  return text;
 }
 
 void write_log(const std::filesystem::path& folder, const std::string& text, const bool quiet)

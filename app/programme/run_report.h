@@ -3,6 +3,7 @@
 #include "app/input/laboratory_curve.h"
 #include "app/screen/progress.h"
 #include "results/fits/run_envelopes.h"
+#include "results/folder/reference.h"
 #include "results/runs/run.h"
 
 #include <filesystem>
@@ -40,6 +41,21 @@ struct ReportedTests
 ReportedTests write_and_report(const Provenance& made_by, const std::vector<FinishedTest>& tests,
                                const std::filesystem::path& reference_file, const std::filesystem::path& folder,
                                Progress& progress);
+
+/// Comparison with the reference, stages and strength envelope of the tests of one variant, for a terminal. `beside_flaws`: as
+/// compare().
+std::string describe_tests(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
+                           const RunEnvelopes& envelopes, bool beside_flaws = false);
+
+/// The first part of a run that failed, with its reason; empty if none did.
+template <typename Part>
+std::string first_failure(const std::vector<Part>& parts)
+{
+  for (const Part& part : parts)
+    if (!part.record.failure.empty())
+      return part.name + ": " + part.record.failure;
+  return "";
+}
 
 /// The words of a run: into its log.txt, unless quiet onto the terminal. The last line names the page of the report, or how
 /// to make it; where quiet, and of a run without tests, the folder.

@@ -136,7 +136,7 @@ void check_intact(const Input& input, const Network<dim>& network)
 
 void check_sample_entries(const Input& input, const std::filesystem::path& input_file)
 {
-  check_reference(input);
+  reference_of(input);
   with_name_of(input_file, [&] { check_sample(input); });
 }
 

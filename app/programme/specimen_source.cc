@@ -7,6 +7,7 @@
 #include "app/programme/run_board.h"
 #include "app/programme/usual_ranges.h"
 #include "app/run/interrupt.h"
+#include "base/append.h"
 #include "base/input_error.h"
 #include "dem/rock/rock.h"
 #include "dem/specimen/specimen_file.h"
@@ -19,7 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
+#include <iterator>
 
 namespace feldspar
 {
@@ -58,7 +59,8 @@ std::vector<std::string> names_of_rocks(const std::vector<Variant>& variants,
 }
 } // namespace
 
-std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
+RunPlan::RunPlan(const Input& input)
+  : variants(feldspar::variants(input))
 {
   std::vector<std::string> rocks;
   std::vector<std::vector<std::size_t>> of_rock;
@@ -66,56 +68,63 @@ std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
     {
       const std::string wanted = rock(variants[v].input);
       const auto known = std::find(rocks.begin(), rocks.end(), wanted);
-      if (known != rocks.end())
-        of_rock[std::size_t(known - rocks.begin())].push_back(v);
-      else
-        {
-          rocks.push_back(wanted);
-          of_rock.push_back({v});
-        }
+      of_rock.resize(std::max(of_rock.size(), std::size_t(known - rocks.begin()) + 1));
+      of_rock[std::size_t(known - rocks.begin())].push_back(v);
+      if (known == rocks.end())
+        rocks.push_back(wanted);
     }
-
-  std::vector<SpecimenOrder> orders;
   const auto names = names_of_rocks(variants, of_rock);
   for (std::size_t r = 0; r < of_rock.size(); ++r)
     for (const std::uint64_t seed : variants[of_rock[r].front()].input.seeds)
       {
-        const auto& users = of_rock[r];
         std::string name = "specimen";
         if (of_rock.size() > 1)
           name += '_' + names[r];
-        if (variants[users.front()].input.seeds.size() > 1)
+        if (variants[of_rock[r].front()].input.seeds.size() > 1)
           name += fmt::format("_seed_{}", seed);
-        orders.push_back({users, seed, name});
+        orders.push_back({of_rock[r], seed, name});
       }
-  return orders;
 }
 
 template <int dim>
-std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variants,
-                                             const std::vector<SpecimenOrder>& orders,
+std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::filesystem::path& folder,
+                                             Progress& progress)
+{
+  std::set<std::size_t> all;
+  for (std::size_t k = 0; k < plan.orders.size(); ++k)
+    all.insert(k);
+  return provide_specimens<dim>(plan, all, folder, progress);
+}
+
+template <int dim>
+std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::set<std::size_t>& numbers,
                                              const std::filesystem::path& folder, Progress& progress)
 {
-  check_memory(variants, orders);
-  if (const std::string effort = describe_effort(variants, orders); !effort.empty())
-    progress.remark(effort);
-  for (const std::string& sentence : unusual_values(variants))
-    progress.remark(sentence);
-  if (const std::string& left_out = variants.front().input.flaws.left_out; !left_out.empty())
-    progress.remark(left_out);
-  if (const auto& settled = variants.front().input.settled_by_file; !settled.empty())
-    progress.remark(fmt::format("the specimen is that of {};\nthese entries have no effect on it: {}",
-                                variants.front().input.specimen.specimen_file, fmt::join(settled, ", ")));
-  std::vector<Specimen<dim>> specimens(orders.size());
-  const auto input_of = [&](const SpecimenOrder& order) -> const Input& {
-    return variants[order.variants.front()].input;
-  };
+  std::vector<Specimen<dim>> specimens(plan.orders.size());
+  if (numbers.empty())
+    return specimens;
+  std::vector<SpecimenOrder> orders;
   std::vector<BoardPart> parts;
-  for (const SpecimenOrder& order : orders)
-    parts.push_back({order.name, expected_effort(input_of(order).specimen).seconds});
-  RunBoard board(progress, "genesis", std::move(parts));
-  for_each_job(orders.size(), [&](const std::size_t k) {
-    const Input& input = input_of(orders[k]);
+  for (const std::size_t k : numbers)
+    {
+      orders.push_back(plan.orders[k]);
+      parts.push_back({orders.back().name, expected_effort(plan.input_of(orders.back()).specimen).seconds});
+    }
+  check_memory(plan, orders);
+  const Input& first = plan.variants.front().input;
+  std::vector<std::string> remarks{describe_effort(plan, orders)};
+  append(remarks, unusual_values(plan.variants));
+  remarks.push_back(first.flaws.left_out);
+  if (!first.settled_by_file.empty())
+    remarks.push_back(fmt::format("the specimen is that of {};\nthese entries have no effect on it: {}",
+                                  first.specimen.specimen_file, fmt::join(first.settled_by_file, ", ")));
+  for (const std::string& remark : remarks)
+    if (!remark.empty())
+      progress.remark(remark);
+  RunBoard board(progress, "genesis", parts);
+  for_each_job(orders.size(), [&](const std::size_t job) {
+    const Input& input = plan.input_of(orders[job]);
+    Specimen<dim>& specimen = specimens[*std::next(numbers.begin(), std::ptrdiff_t(job))];
     const double expected_steps = expected_effort(input.specimen).n_steps;
     std::uint64_t n_steps = 0;
     const auto step = [&] {
@@ -123,35 +132,36 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
       constexpr std::uint64_t steps_between_checks = 100;
       constexpr double beyond = 1.2; // of one that takes longer than expected
       if (++n_steps % steps_between_checks == 0)
-        board.advanced(k, {nullptr, double(n_steps) / std::max({expected_steps, beyond * double(n_steps), 1.0})});
+        board.advanced(job, {nullptr, double(n_steps) / std::max({expected_steps, beyond * double(n_steps), 1.0})});
     };
-    const auto file = folder / (orders[k].name + ".h5");
+    const auto file = folder / (orders[job].name + ".h5");
     if (std::filesystem::exists(file))
       try
         {
-          specimens[k] = read_specimen<dim>(file, end_if_interrupted);
-          board.ended(k);
+          specimen = read_specimen<dim>(file, end_if_interrupted);
+          board.ended(job);
           return;
         }
       catch (const InputError& error)
         {
           board.say(fmt::format("{}; making it anew", error.what()));
         }
-    specimens[k] = make_rock<dim>(rock_of(input), orders[k].seed, step, end_if_interrupted);
-    write_specimen(specimens[k], file);
-    board.ended(k);
+    specimen = make_rock<dim>(rock_of(input), orders[job].seed, step, end_if_interrupted);
+    write_specimen(specimen, file);
+    board.ended(job);
   });
-  progress.finish(fmt::format("{} specimen(s) of {} grains", specimens.size(), specimens.front().grains.size()));
+  progress.finish(fmt::format("{} specimen(s) of {} grains", orders.size(), specimens[*numbers.begin()].grains.size()));
   return specimens;
 }
 
 template <int dim>
-void share_out_specimens(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
-                         const std::filesystem::path& folder, Progress& progress)
+void share_out_specimens(const RunPlan& plan, const std::filesystem::path& folder, Progress& progress)
 {
   together_or_interrupted([&] {
-    if (const auto own = share_of_this_process(orders); !own.empty())
-      provide_specimens<dim>(variants, own, folder, progress);
+    std::set<std::size_t> own;
+    for (std::size_t k = ranks::mine(); k < plan.orders.size(); k += ranks::number())
+      own.insert(k);
+    provide_specimens<dim>(plan, own, folder, progress);
   });
 }
 
@@ -212,14 +222,14 @@ std::string describe(const std::vector<Flaw<dim>>& flaws)
   return text;
 }
 
-template void share_out_specimens<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
-                                     const std::filesystem::path&, Progress&);
-template void share_out_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
-                                     const std::filesystem::path&, Progress&);
+template std::vector<Specimen<2>> provide_specimens<2>(const RunPlan&, const std::filesystem::path&, Progress&);
+template std::vector<Specimen<3>> provide_specimens<3>(const RunPlan&, const std::filesystem::path&, Progress&);
+template void share_out_specimens<2>(const RunPlan&, const std::filesystem::path&, Progress&);
+template void share_out_specimens<3>(const RunPlan&, const std::filesystem::path&, Progress&);
 template std::string describe<2>(const std::vector<Flaw<2>>&);
 template std::string describe<3>(const std::vector<Flaw<3>>&);
-template std::vector<Specimen<3>> provide_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+template std::vector<Specimen<2>> provide_specimens<2>(const RunPlan&, const std::set<std::size_t>&,
                                                        const std::filesystem::path&, Progress&);
-template std::vector<Specimen<2>> provide_specimens<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+template std::vector<Specimen<3>> provide_specimens<3>(const RunPlan&, const std::set<std::size_t>&,
                                                        const std::filesystem::path&, Progress&);
 } // namespace feldspar

@@ -74,7 +74,7 @@ std::set<std::string> listed_files(const fs::path& folder)
       const fs::path file = line;
       const bool is_plain =
         !line.empty() && file.is_relative() && file.lexically_normal() == file && file.has_filename();
-      if (is_plain && (places_of_runs().include(file) || places_of_contacts().include(file)))
+      if (is_plain && (places_of_runs.include(file) || places_of_contacts.include(file)))
         files.insert(line);
     }
   return files;
@@ -165,7 +165,7 @@ std::set<std::string> files_of_runs(const fs::path& folder)
   if (!is_of_version_without_lists(folder))
     return files;
   const bool is_run = has_words(folder / record_name, "\"relative_to\"");
-  const Places& places = is_run ? places_of_runs() : places_of_reports();
+  const Places& places = is_run ? places_of_runs : places_of_reports;
   for (const auto& entry : fs::directory_iterator(folder))
     if (const std::string name = entry.path().filename().string(); places.include(name) && !has(places.folders, name))
       files.insert(name);
@@ -180,34 +180,15 @@ bool Places::include(const std::filesystem::path& relative) const
   return has(folders, first) || (is_at_top && (has(files, first) || (specimens && is_specimen(first))));
 }
 
-const Places& places_of_runs()
-{
-  static const Places places{{record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv",
-                              "reference.json", page_name, "log.txt", "calibration.json", "design.csv", "posterior.csv",
-                              "best.prm", "nearest.prm"},
-                             {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
-                              "figures", "tables", "calibration", "volumes" /* of 0.2.0, now rves */},
-                             true};
-  return places;
-}
-
-const Places& places_of_specimens()
-{
-  static const Places places{{}, {}, true};
-  return places;
-}
-
-const Places& places_of_contacts()
-{
-  static const Places places{{"contact.csv"}, {}, false};
-  return places;
-}
-
-const Places& places_of_reports()
-{
-  static const Places places{{page_name}, {"figures", "tables"}, false};
-  return places;
-}
+const Places places_of_runs{{record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv",
+                             "reference.json", page_name, "log.txt", "calibration.json", "design.csv", "posterior.csv",
+                             "best.prm", "nearest.prm"},
+                            {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
+                             "figures", "tables", "calibration", "volumes" /* of 0.2.0, now rves */},
+                            true};
+const Places places_of_specimens{{}, {}, true};
+const Places places_of_contacts{{"contact.csv"}, {}, false};
+const Places places_of_reports{{page_name}, {"figures", "tables"}, false};
 
 FileList::FileList(const std::filesystem::path& its_folder)
   : folder(plain(its_folder))
@@ -264,7 +245,7 @@ void check_links(const std::filesystem::path& folder)
   if (fs::is_symlink(fs::symlink_status(folder / list_name)))
     throw InputError(fmt::format("{}: is a link; the list of the files that runs wrote is to be a file: remove it",
                                  (folder / list_name).string()));
-  for (const std::string_view name : places_of_runs().folders)
+  for (const std::string_view name : places_of_runs.folders)
     {
       const fs::path own = folder / name;
       if (fs::is_symlink(fs::symlink_status(own)))
@@ -315,7 +296,7 @@ void remove_listed_files(const std::filesystem::path& folder, const std::string&
     if (file.starts_with(below) && lies_in(folder, file))
       for (const fs::path& one : with_later_names(folder / file))
         remove_file(one);
-  for (const std::string_view name : places_of_runs().folders)
+  for (const std::string_view name : places_of_runs.folders)
     if (name.starts_with(below.substr(0, below.find('/'))))
       remove_empty_folders(folder / name);
   if (below.empty())
@@ -359,7 +340,7 @@ void EarlierRun::move(const std::set<std::string>& files, const fs::path& from, 
       for (const fs::path& one : with_later_names(from / file))
         move_one(one);
   move_one(from / list_name); // the last one: until then it says what is where
-  for (const std::string_view name : places_of_runs().folders)
+  for (const std::string_view name : places_of_runs.folders)
     remove_empty_folders(from / name);
 }
 

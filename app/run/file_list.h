@@ -20,10 +20,8 @@ struct Places
   bool include(const std::filesystem::path& relative) const;
 };
 
-const Places& places_of_runs(); ///< of lab, rve, multiscale, calibrate
-const Places& places_of_specimens();
-const Places& places_of_contacts();
-const Places& places_of_reports();
+extern const Places places_of_runs; ///< of lab, rve, multiscale, calibrate
+extern const Places places_of_specimens, places_of_contacts, places_of_reports;
 
 /// Keeps a list of the files that this process writes into a folder: each is listed before it is written. The list lies
 /// in the folder, and the next process there adds to it. A file in the place of a result that no run wrote is moved aside and

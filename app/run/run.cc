@@ -1,5 +1,6 @@
 #include "app/run/run.h"
 
+#include "app/processes/mpi_session.h"
 #include "app/run/file_list.h"
 #include "app/run/interrupt.h"
 #include "app/run/output_folder.h"
@@ -7,15 +8,16 @@
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/ranks/ranks.h"
 #include "base/whole_file.h"
 #include "dem/genesis/packing_file.h"
 #include "dem/specimen/specimen_file.h"
+#include "runs/share_out.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <set>
-#include <system_error>
 
 namespace feldspar
 {
@@ -37,9 +39,8 @@ void tell_failure(const std::string& failure, const std::filesystem::path& folde
 /// Continues from wherever the run stands.
 int go_on(const RunCommand& command, const Run& run)
 {
-  const Processes& processes = command.processes;
   const auto end_interrupted = [&] {
-    if (processes.is_first)
+    if (ranks::is_first())
       fmt::print(stderr, "feldspar: interrupted; {}\n", how_to_resume(command, run.folder));
     return exit_code::interrupted;
   };
@@ -51,7 +52,7 @@ int go_on(const RunCommand& command, const Run& run)
       const RunEnd end = command.go(run);
       if (end.was_interrupted)
         return end_interrupted();
-      processes.first([&] {
+      ranks::first([&] {
         remove_listed_files(run.folder, "checkpoints/");
         mark_complete(run.folder, end.failure, end.code_of_failure);
         tell_failure(end.failure, run.folder);
@@ -93,17 +94,17 @@ void read_bodies(const Input& input)
 int resume(const RunCommand& command, const CommonOptions& options)
 {
   std::optional<FolderLock> lock;
-  command.processes.first([&] { lock.emplace(*options.resume); });
+  ranks::first([&] { lock.emplace(*options.resume); });
   const RunRecord record = read_run_record(command.name, *options.resume);
   const FileList list(*options.resume);
-  command.processes.first([&] {
+  ranks::first([&] {
     forget_earlier_run(*options.resume);
     if (!record.remark.empty())
       fmt::print(stderr, "feldspar: {}\n", printable(record.remark));
   });
   if (record.complete)
     {
-      if (command.processes.is_first)
+      if (ranks::is_first())
         {
           print_result("{}: this run is complete\n", options.resume->string());
           tell_failure(record.failure, *options.resume);
@@ -116,7 +117,6 @@ int resume(const RunCommand& command, const CommonOptions& options)
 
 int begin(const RunCommand& command, const CommonOptions& options)
 {
-  const Processes& processes = command.processes;
   const Input input = read_input(options.input, {}, options.settings);
   command.check(input, options.input);
   // The first process makes the folder and begins the record of the run; the others learn its name.
@@ -124,8 +124,8 @@ int begin(const RunCommand& command, const CommonOptions& options)
   std::optional<FolderLock> lock;
   std::optional<FileList> list;
   std::optional<EarlierRun> earlier;
-  processes.first([&] {
-    made.emplace(options.output, options.input, write_over(options, places_of_runs(), input));
+  ranks::first([&] {
+    made.emplace(options.output, options.input, write_over(options, places_of_runs, input));
     lock.emplace(made->path());
     earlier.emplace(made->path()); // with --force: what it left would be taken for this run's
     list.emplace(made->path());
@@ -140,7 +140,7 @@ int begin(const RunCommand& command, const CommonOptions& options)
         throw;
       }
   });
-  const std::filesystem::path folder = processes.of_first(made ? made->path().string() : "");
+  const std::filesystem::path folder = ranks::of_first(made ? made->path().string() : "");
   if (!list)
     list.emplace(folder);
   try
@@ -150,13 +150,28 @@ int begin(const RunCommand& command, const CommonOptions& options)
   catch (const InputError&)
     {
       list.reset(); // in all processes before the list of the earlier run comes back
-      processes.first([] {});
-      processes.first([&] { // a mistake leaves nothing, and takes nothing
+      ranks::first([] {});
+      ranks::first([&] { // a mistake leaves nothing, and takes nothing
         remove_listed_files(folder);
         earlier->restore();
       });
       throw;
     }
+}
+
+RunEnd go(const Run& run, const SharedRun& shared)
+{
+  Progress progress(run.quiet || !ranks::is_first());
+  if (ranks::number() == 1)
+    return shared.go_alone(run, progress);
+  shared.share_out(run, progress);
+  RunEnd end{};
+  together_or_interrupted([&] {
+    if (ranks::is_first())
+      end = shared.go_alone(run, progress);
+  });
+  end.was_interrupted = ranks::any(end.was_interrupted);
+  return end;
 }
 } // namespace
 
@@ -178,7 +193,20 @@ int run_command(const RunCommand& command, const CommonOptions& options)
   if (options.input.empty() && !options.resume)
     throw InputError(
       fmt::format("{0} needs an INPUT, or --resume with the folder of a run; see feldspar {0} --help", command.name));
-  watch_for_interrupt(command.processes.is_first && !options.quiet);
+  watch_for_interrupt(ranks::is_first() && !options.quiet);
   return options.resume ? resume(command, options) : begin(command, options);
+}
+
+int run_shared(const std::string& name,
+               const std::function<void(const Input&, const std::filesystem::path& input_file)>& check,
+               const SharedRun& plane, const SharedRun& space, const CommonOptions& options)
+{
+  const auto program = [&] {
+    const auto by_dimension = [&](const Run& run) {
+      return go(run, run.input.specimen.dimension == 2 ? plane : space);
+    };
+    return run_command({name, check, by_dimension}, options);
+  };
+  return is_launched() ? with_mpi(program) : program();
 }
 } // namespace feldspar

@@ -2,6 +2,7 @@
 
 #include "app/input/input.h"
 #include "app/run/file_list.h"
+#include "app/screen/progress.h"
 
 #include <filesystem>
 #include <functional>
@@ -52,15 +53,7 @@ struct RunEnd
   int code_of_failure = exit_code::user_error;
 };
 
-/// The processes that make a run together: this one alone, unless a command says otherwise.
-struct Processes
-{
-  bool is_first = true;
-  std::function<void(const std::function<void()>&)> first = [](const std::function<void()>& work) { work(); };
-  std::function<std::string(const std::string&)> of_first = [](const std::string& text) { return text; };
-};
-
-/// The part of a run that is its command's own.
+/// The part of a run that is its command's own. All processes that were started together make the run.
 struct RunCommand
 {
   std::string name; ///< lab, rve, multiscale
@@ -68,7 +61,6 @@ struct RunCommand
   std::function<void(const Input&, const std::filesystem::path& input_file)> check;
   /// Makes the rock, breaks it and reports, from wherever the folder stands.
   std::function<RunEnd(const Run&)> go;
-  Processes processes = {};
 };
 
 /// The check of a folder with results that --force asks for (OutputFolder): no file that the run reads may be lost, nor a file
@@ -80,4 +72,18 @@ std::function<void(const std::filesystem::path& folder)> write_over(const Common
 /// what is there, and a sentence tells how to go on; a mistake of the user in a run just begun leaves nothing. Returns the
 /// exit code; throws InputError and OutputError.
 int run_command(const RunCommand& command, const CommonOptions& options);
+
+/// A run whose parts several processes can make, each its own.
+struct SharedRun
+{
+  std::function<void(const Run&, Progress&)> share_out; ///< each process its parts, which it leaves in the folder
+  std::function<RunEnd(const Run&, Progress&)>
+    go_alone; ///< all parts that the folder does not have yet, and the report
+};
+
+/// Runs a command in the plane or in space, by all processes that were started together: the first takes up what all have
+/// done, as after an interruption. Returns the exit code.
+int run_shared(const std::string& name,
+               const std::function<void(const Input&, const std::filesystem::path& input_file)>& check,
+               const SharedRun& plane, const SharedRun& space, const CommonOptions& options);
 } // namespace feldspar

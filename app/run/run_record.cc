@@ -37,12 +37,12 @@ struct Contents
   std::filesystem::path input_file;
   std::filesystem::path relative_to; ///< the folder of the input
   std::vector<std::string> settings;
-  bool variants_by_value;     ///< how their files are named; not in the folders of before they were
-  std::string input_checksum; ///< of the copy of the input; empty in the folders of before there were any
+  bool variants_by_value = true; ///< how their files are named; not in the folders of before they were
+  std::string input_checksum;    ///< of the copy of the input; empty in the folders of before there were any
   std::map<std::string, std::string> checksums; ///< those of the files that the input names
-  bool complete;
+  bool complete = false;
   std::string failure;
-  int code_of_failure;
+  int code_of_failure = 0;
 };
 
 /// The checksum of all that tells which rock and tests a resumed run goes on with. It leaves out whether the list is
@@ -102,44 +102,29 @@ void write(const std::filesystem::path& folder, const Contents& contents)
 Contents read(const std::filesystem::path& folder)
 {
   const std::filesystem::path file = folder / record_name;
-  const auto json =
-    nlohmann::json::parse(std::filesystem::exists(file) ? content_of(file) : std::string(), nullptr, false);
-  const auto holds = [&](const char* name, const nlohmann::json::value_t type) {
-    return json.is_object() && json.contains(name) && json[name].type() == type;
-  };
-  using Type = nlohmann::json::value_t;
-  if (!holds("command", Type::string) || !holds("input_file", Type::string) || !holds("relative_to", Type::string) ||
-      !holds("complete", Type::boolean))
-    throw InputError(
-      fmt::format("{}: not the folder of a run; {} is missing in it or damaged", folder.string(), record_name));
-  std::vector<std::string> settings;
-  if (json.contains("settings")) // not in the folders of before there were any
+  nlohmann::json json;
+  Contents contents;
+  try
     {
-      const auto& all = json["settings"];
-      if (!all.is_array() || !std::all_of(all.begin(), all.end(), [](const auto& one) { return one.is_string(); }))
-        throw InputError(fmt::format("{}: the settings in {} are damaged", folder.string(), record_name));
-      settings = all.get<std::vector<std::string>>();
+      json = nlohmann::json::parse(std::filesystem::exists(file) ? content_of(file) : std::string());
+      // Older runs have no settings, names of variants, checksums.
+      contents = {json.at("command").get<std::string>(),
+                  json.at("input_file").get<std::string>(),
+                  json.at("relative_to").get<std::string>(),
+                  json.value("settings", contents.settings),
+                  json.value("variants_named", "") == by_value,
+                  json.value("input_checksum", ""),
+                  json.value("checksums", contents.checksums),
+                  json.at("complete").get<bool>(),
+                  json.value("failure", ""),
+                  json.value("exit_code", exit_code::user_error)};
     }
-  std::map<std::string, std::string> checksums;
-  if (json.contains("checksums"))
+  catch (const nlohmann::json::exception&)
     {
-      const auto& all = json["checksums"];
-      if (!all.is_object() || !std::all_of(all.begin(), all.end(), [](const auto& one) { return one.is_string(); }))
-        throw InputError(fmt::format("{}: the checksums in {} are damaged", folder.string(), record_name));
-      checksums = all.get<std::map<std::string, std::string>>();
+      throw InputError(
+        fmt::format("{}: not the folder of a run; {} is missing in it or damaged", folder.string(), record_name));
     }
-  Contents contents{json["command"].get<std::string>(),
-                    json["input_file"].get<std::string>(),
-                    json["relative_to"].get<std::string>(),
-                    settings,
-                    holds("variants_named", Type::string) && json["variants_named"] == by_value,
-                    holds("input_checksum", Type::string) ? json["input_checksum"].get<std::string>() : "",
-                    checksums,
-                    json["complete"].get<bool>(),
-                    holds("failure", Type::string) ? json["failure"].get<std::string>() : "",
-                    holds("exit_code", Type::number_unsigned) ? json["exit_code"].get<int>() : exit_code::user_error};
-  if (json.contains("checksum") &&
-      json["checksum"] != checksum_of(contents)) // not in the folders of before there was one
+  if (json.contains("checksum") && json["checksum"] != checksum_of(contents))
     throw InputError(fmt::format("{}: {} in it is not as the run wrote it; undo the change, or begin another run",
                                  folder.string(), record_name));
   return contents;

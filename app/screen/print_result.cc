@@ -41,29 +41,9 @@ std::string wrapped_line(const std::string_view line, const std::size_t width)
   const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
   if (width_of(line) <= width || line.substr(indent).find("   ") != std::string_view::npos)
     return std::string(line);
-  std::string text(line.substr(0, indent));
-  std::size_t used = indent;
-  bool is_first = true;
-  for (std::size_t begin = indent; begin < line.size();)
-    {
-      const std::size_t end = std::min(line.find(' ', begin), line.size());
-      const std::string_view word = line.substr(begin, end - begin);
-      if (!is_first && used + 1 + width_of(word) > width)
-        {
-          text += '\n';
-          text.append(indent + 2, ' ');
-          used = indent + 2;
-        }
-      else if (!is_first)
-        {
-          text += ' ';
-          ++used;
-        }
-      text += word;
-      used += width_of(word);
-      is_first = false;
-      begin = end + 1;
-    }
+  std::string text;
+  for (const std::string& words : in_lines(line.substr(indent), width - std::min(indent, width), "  "))
+    text += (text.empty() ? "" : "\n") + std::string(indent, ' ') + words;
   return text;
 }
 } // namespace

@@ -5,7 +5,7 @@
 #include "base/random.h"
 #include "calibration/answer.h"
 #include "calibration/fit.h"
-#include "calibration/posterior.h"
+#include "calibration/open_turns.h"
 #include "calibration/responses.h"
 #include "calibration/target_outcomes.h"
 #include "dem/lab/protocols/protocols.h"
@@ -124,8 +124,8 @@ TEST(ElasticTable, InterpolatesFinely)
   for (double ratio = 1.0; ratio <= 4.0; ratio += 0.01)
     // h²/8 of the second derivative over ln κ, which is 0.26 at most, with h = ln 4 / 16.
     EXPECT_NEAR(table.at(ratio, 0.05).poissons_ratio, affine_poissons_ratio(ratio), 2.5e-4);
-  EXPECT_DOUBLE_EQ(table.least().poissons_ratio, 0.0);
-  EXPECT_DOUBLE_EQ(table.largest().poissons_ratio, 3.0 / 13.0);
+  EXPECT_DOUBLE_EQ(table.range().first.poissons_ratio, 0.0);
+  EXPECT_DOUBLE_EQ(table.range().second.poissons_ratio, 3.0 / 13.0);
 }
 
 /// A rock whose law is known: strengths over the bond strength are powers of the cohesion ratio, and friction matters to
@@ -211,7 +211,7 @@ TEST(ResponseModel, LearnsTheLawAndIsCorrectedByPackings)
   const KnownRock rock;
   ResponseModel model = rock.learnt();
   const std::size_t strength = rock.number("uniaxial_compressive_strength");
-  EXPECT_NEAR(model.noise(strength), 0.04, 0.012); // by 23 degrees of freedom: 15 %
+  EXPECT_NEAR(model.learnt(strength).noise, 0.04, 0.012); // by 23 degrees of freedom: 15 %
   const Place place{{0.3, 0.6, 0.5}, std::log(75e9), std::log(20e6)};
   std::vector<TestedPoint> tests;
   for (std::uint64_t seed = 11; seed < 51; ++seed)
@@ -220,7 +220,7 @@ TEST(ResponseModel, LearnsTheLawAndIsCorrectedByPackings)
   const double truth = *rock.truth(model.parameters(place))[strength];
   // 40 packings of a scatter of 0.064: a standard error of 0.01.
   EXPECT_NEAR(model.predict(strength, place), std::log(truth), 0.03);
-  EXPECT_NEAR(*model.scatter(strength), std::hypot(0.05, 0.04), 0.02);
+  EXPECT_NEAR(*model.learnt(strength).scatter, std::hypot(0.05, 0.04), 0.02);
   EXPECT_FALSE(model.knows(rock.number("crack_damage_stress"))) << "no value of it was ever given";
 }
 
@@ -331,10 +331,10 @@ TEST(ResponseModel, TellsTheScatterOfASpecimenByItsDesign)
 {
   const KnownRock rock;
   const ResponseModel model = rock.learnt();
-  const double scatter = *model.scatter_of_design(rock.number("uniaxial_compressive_strength"));
+  const double scatter = *model.learnt(rock.number("uniaxial_compressive_strength")).scatter_of_design;
   EXPECT_GT(scatter, 0.04);
   EXPECT_LT(scatter, 0.11);
-  EXPECT_FALSE(ResponseModel(rock.all, rock.unknown, rock.fixed, affine_table(), 0.05).scatter_of_design(0));
+  EXPECT_FALSE(ResponseModel(rock.all, rock.unknown, rock.fixed, affine_table(), 0.05).learnt(0).scatter_of_design);
 }
 
 FinishedTest crushed(const TestKind& kind, const double confining_pressure, const double strength)

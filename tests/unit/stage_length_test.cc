@@ -1,4 +1,4 @@
-#include "app/screen/stage_length.h"
+#include "app/screen/expected_length.h"
 
 #include "laboratory/compression.h"
 #include "tests/unit/staged_runs.h"

@@ -207,12 +207,9 @@ public:
   std::string left_out() const
   {
     std::vector<std::string> parts;
-    if (n_on_paper > 0)
-      parts.push_back(fmt::format("{} in paper space", n_on_paper));
-    if (n_on_hidden_layers > 0)
-      parts.push_back(fmt::format("{} on layers that are off or frozen", n_on_hidden_layers));
-    if (n_invisible > 0)
-      parts.push_back(fmt::format("{} marked as invisible", n_invisible));
+    for (const auto& [reason, n] : hidden)
+      if (n > 0)
+        parts.push_back(fmt::format("{} {}", n, reason));
     return parts.empty() ? ""
                          : fmt::format("{}: entities that are not to be seen in model space are not read: {}",
                                        file.string(), fmt::join(parts, ", "));
@@ -240,13 +237,12 @@ private:
   /// Returns whether an entity is to be seen in model space; counts it where it is not.
   bool is_shown(const DxfRecord& entity)
   {
-    std::size_t* const reason = entity.integer(67, 0) != 0                                      ? &n_on_paper
-                                : hidden_layers.contains(in_small_letters(entity.text(8, "0"))) ? &n_on_hidden_layers
-                                : entity.integer(60, 0) != 0                                    ? &n_invisible
-                                                                                                : nullptr;
-    if (reason)
-      ++*reason;
-    return !reason;
+    const std::array reasons{entity.integer(67, 0) != 0, hidden_layers.contains(in_small_letters(entity.text(8, "0"))),
+                             entity.integer(60, 0) != 0};
+    const auto reason = std::find(reasons.begin(), reasons.end(), true);
+    if (reason != reasons.end())
+      ++hidden[std::size_t(reason - reasons.begin())].second;
+    return reason == reasons.end();
   }
 
   void add_entity(const DxfRecord& entity)
@@ -306,9 +302,9 @@ private:
   bool is_in_polyline = false;      ///< vertices follow
   std::optional<Polyline> polyline; ///< to which they belong; none of one that is not shown
   std::size_t n_corners = 0;
-  std::size_t n_on_paper = 0;
-  std::size_t n_on_hidden_layers = 0;
-  std::size_t n_invisible = 0;
+  /// Reasons why entities are not seen, and their numbers.
+  std::array<std::pair<std::string_view, std::size_t>, 3> hidden{
+    {{"in paper space", 0}, {"on layers that are off or frozen", 0}, {"marked as invisible", 0}}};
 };
 
 /// Metres of the drawing's unit; the codes are those of $INSUNITS in the reference of DXF.

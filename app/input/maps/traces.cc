@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
-
 namespace feldspar
 {
 namespace
