@@ -19,6 +19,7 @@ std::vector<Entry<ContactParameters>> contact_entries();
 Entry<ContactParameters> contact_path_entry();
 std::vector<Entry<StrainPathParameters>> strain_path_entries();
 std::vector<Entry<CalibrationParameters>> calibration_list_entries();
+std::vector<Entry<ReportLabels>> label_entries();
 Entry<Input> reference_entry();
 Entry<Input> reference_results_entry();
 } // namespace feldspar

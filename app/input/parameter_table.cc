@@ -74,6 +74,7 @@ std::vector<Parameter> make_parameter_table()
   table.add("Continuum", &Input::continuum, continuum_entries());
   table.add("Calibration", &Input::calibration, calibration_list_entries());
   table.add("Calibration", &Input::calibration, calibration_entries());
+  table.add("Report", &Input::report_labels, label_entries());
   table.add("Report", {reference_entry(), reference_results_entry()});
   return table.parameters;
 }
