@@ -10,13 +10,12 @@ namespace feldspar
 /// The search of an equilibrium of a sample that was accepted as a step.
 struct SolverStep
 {
-  std::uint64_t step = 0;                  ///< from 1
-  double axial_strain = 0.0;               ///< tension positive, from seating
-  std::uint64_t n_iterations = 0;          ///< of Newton's method
-  std::uint64_t n_cascades = 0;            ///< times that something broke and equilibrium was sought anew
-  std::uint64_t n_cuts = 0;                ///< searches before it that were given up, each then cut or repeated
-  std::uint64_t n_iterations_given_up = 0; ///< of these
-  double residual = 0.0;                   ///< unbalanced over internal force at its end
+  std::uint64_t step = 0;         ///< from 1
+  double axial_strain = 0.0;      ///< tension positive, from seating
+  std::uint64_t n_iterations = 0; ///< of Newton's method
+  std::uint64_t n_cascades = 0;   ///< times that something broke and equilibrium was sought anew
+  std::uint64_t n_cuts = 0;       ///< searches before it that were given up, each then cut or repeated
+  double residual = 0.0;          ///< unbalanced over internal force at its end
 };
 
 /// The effort of finding the equilibria of a sample of finite elements, steps that were given up included.

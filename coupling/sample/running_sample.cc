@@ -137,7 +137,6 @@ void SampleTest::Parts::go(const std::function<fem::NewtonReport(double)>& solve
         }
       body->reject();
       ++step_on_its_way.n_cuts;
-      step_on_its_way.n_iterations_given_up += report.n_iterations;
       const bool breaks_too_much = !avalanche && report.n_events > most_events;
       const bool was_cut = steps->cut();
       if (!was_cut && !breaks_too_much)

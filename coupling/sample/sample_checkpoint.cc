@@ -34,7 +34,6 @@ void SampleTest::Parts::transfer(Archive& archive, std::string& fields_written, 
   archive.bytes("curve", record.curve);
   archive.bytes("solver_steps", bookkeeping.solver_work->steps);
   archive.value("n_cuts_of_step", step_on_its_way.n_cuts);
-  archive.value("n_iterations_given_up", step_on_its_way.n_iterations_given_up);
   archive.text("fields_written", fields_written);
   for (const std::string& boundary : body->boundaries())
     archive.value("pressure_" + boundary + "_Pa", solid.pressures[boundary]);

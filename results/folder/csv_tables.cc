@@ -247,7 +247,7 @@ TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::strin
 void write_steps(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
 {
   constexpr double round_off = 1e-8; // a smaller residual is noise of the sums that it is made of
-  std::string text = "test,step,axial_strain,iterations,residual,cascades,cuts,iterations_given_up\n";
+  std::string text = "test,step,axial_strain,iterations,residual,cascades,cuts\n";
   bool any = false;
   for (const auto& test : tests)
     if (const auto& work = test.bookkeeping.solver_work)
@@ -255,9 +255,9 @@ void write_steps(const std::vector<FinishedTest>& tests, const std::filesystem::
         {
           any = true;
           const double strain = test.record.kind.sign * step.axial_strain;
-          fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{},{:.1e},{},{},{}\n", test.name, step.step,
+          fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{},{:.1e},{},{}\n", test.name, step.step,
                          strain == 0.0 ? 0.0 : strain, step.n_iterations, std::max(step.residual, round_off),
-                         step.n_cascades, step.n_cuts, step.n_iterations_given_up);
+                         step.n_cascades, step.n_cuts);
         }
   if (any)
     write_whole_file(file, text);
