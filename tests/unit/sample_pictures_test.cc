@@ -110,7 +110,7 @@ TEST(SamplePicture, DrawsCellsAsTheyAreDisplacedAndSaysHowMuch)
   EXPECT_NEAR(chart.colour.to.value(), 3.0, 1e-9); // 3 % of the last cell
 }
 
-// Where all cells broke nearly alike, a scale from 0 would show them in one colour.
+// A scale from 0 would show cells that broke nearly alike in one colour.
 TEST(SamplePicture, HasTheColoursOfItsOwnCells)
 {
   SampleFields fields = blocks(2);
