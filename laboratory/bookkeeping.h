@@ -1,10 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <vector>
 
 namespace feldspar
 {
+/// The search of an equilibrium of a sample that was accepted as a step.
+struct SolverStep
+{
+  std::uint64_t step = 0;         ///< from 1
+  double axial_strain = 0.0;      ///< tension positive, from seating
+  std::uint64_t n_iterations = 0; ///< of Newton's method
+  std::uint64_t n_cascades = 0;   ///< times that something broke and equilibrium was sought anew
+  std::uint64_t n_cuts = 0;       ///< searches before it that were given up, each then cut or repeated
+  double residual = 0.0;          ///< unbalanced over internal force at its end
+};
+
 /// The effort of finding the equilibria of a sample of finite elements, steps that were given up included.
 struct SolverWork
 {
@@ -12,6 +25,7 @@ struct SolverWork
   std::uint64_t n_iterations = 0; ///< of Newton's method
   std::uint64_t n_cascades = 0;   ///< times that something broke and equilibrium was sought anew
   double seconds_in_points = 0.0; ///< of one core
+  std::vector<SolverStep> steps = {};
 };
 
 /// Balance of the work of the processes (ranks) of a test in the representative volumes of its points; even if the
@@ -28,8 +42,9 @@ struct RankBalance
 struct RunBookkeeping
 {
   std::uint64_t steps = 0;
-  double time_step = 0.0; ///< the last one; NaN where there is no time [s]
-  double wall_time = 0.0; ///< [s]
+  double time_step = 0.0;                                             ///< the last one; NaN where there is no time [s]
+  double wall_time = 0.0;                                             ///< [s]
+  double largest_residual = std::numeric_limits<double>::quiet_NaN(); ///< of the steps of a sample; NaN without
   RankBalance ranks;
   std::optional<SolverWork> solver_work;
 };

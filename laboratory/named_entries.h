@@ -20,6 +20,11 @@ inline constexpr EntryName targets{"Calibration", "Targets"};
 inline constexpr EntryName most_packings{"Calibration", "Most packings"};
 inline constexpr EntryName tolerance{"Calibration", "Tolerance"};
 inline constexpr EntryName installation_gap{"Flat joint", "Installation gap ratio"};
+inline constexpr EntryName report_author{"Report", "Author"};
+inline constexpr EntryName report_client{"Report", "Client"};
+inline constexpr EntryName report_date{"Report", "Date"};
+inline constexpr EntryName report_specimen{"Report", "Specimen"};
+inline constexpr EntryName report_title{"Report", "Title"};
 inline constexpr EntryName reference_file{"Report", "Reference file"};
 inline constexpr EntryName material{"Sample", "Material"};
 inline constexpr EntryName newton_tolerance{"Sample", "Newton tolerance"};
@@ -35,6 +40,7 @@ inline constexpr EntryName test_list{"Tests", "List"};
 
 inline constexpr EntryName all[] = {elastic_modulus,  lateral_ratio,  targets,        most_packings,    tolerance,
                                     installation_gap, reference_file, material,       newton_tolerance, confinements,
+                                    report_author,    report_client,  report_date,    report_specimen,  report_title,
                                     least_fall,       least_stress,   least_transits, notch_ratio,      platen_friction,
                                     stop_strain,      stop_stress,    test_list};
 

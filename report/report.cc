@@ -4,6 +4,7 @@
 #include "base/quoted.h"
 #include "base/whole_file.h"
 #include "report/pictures/figures.h"
+#include "report/sections/provenance.h"
 #include "report/sections/sections.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/bodies.h"
@@ -29,7 +30,7 @@ std::string made_unique(const std::string& name, const char* pattern, std::set<s
   return unique;
 }
 
-/// Labels are names of folders and files, which may be anything: as they are shown, on one line and not long. They tell
+/// Labels are titles of runs, or names of folders and files, which may be anything: as they are shown, on one line and not long. They tell
 /// series apart; the same ones are numbered. So are the names of measured curves, by which their pictures are called: files
 /// of several folders may have one name, or that of a test of the model.
 std::vector<Series> with_labels_to_show(std::vector<Series> all)
@@ -39,7 +40,10 @@ std::vector<Series> with_labels_to_show(std::vector<Series> all)
   std::set<std::string> names;
   for (auto& series : all)
     {
-      series.label = made_unique(excerpt(series.label, most_characters), "{} ({})", labels);
+      // A variant is told by its entries.
+      const std::string title = series.made_by.label_of(input_entries::report_title);
+      const bool is_titled = !title.empty() && !series.tests.empty() && series.tests.front().variant.empty();
+      series.label = made_unique(excerpt(is_titled ? title : series.label, most_characters), "{} ({})", labels);
       if (series.kind != SeriesKind::laboratory_curve)
         for (const auto& test : series.tests)
           names.insert(test.name);
@@ -113,6 +117,12 @@ std::vector<PagePicture> taken_out(std::vector<PageSection>& sections, std::size
 /// Rank of a specimen that the viewer shows: by what there is to see.
 std::size_t rank_of_specimen(const Picture& picture) { return picture.story.size(); }
 
+/// Rank of a sample of finite elements, which stands where there is no specimen: one that was pressed first.
+std::size_t rank_of_sample(const Picture& picture)
+{
+  return !picture.name.ends_with("_sample") ? 0 : picture.name.starts_with("uniaxial_compression") ? 2 : 1;
+}
+
 /// Rank of the picture beside the specimen: the strengths with one fit, else any curve.
 std::size_t rank_of_answer(const Picture& picture)
 {
@@ -134,19 +144,30 @@ std::string rock_in_title(const std::string& rock)
   return rock.empty() ? "Rock" : rock.substr(0, rock.find_first_of(":;"));
 }
 
+/// Puts the user's texts into the head of a page.
+void set_labels(Page& page, const Provenance& made_by, const std::string& rock)
+{
+  if (const std::string title = made_by.label_of(input_entries::report_title); !title.empty())
+    page.title = title;
+  page.labels = labels_of(made_by);
+  page.paper_head = paper_head_of(made_by, rock);
+}
+
 /// The page without its pictures, which the book draws later.
 Page page_of(const Findings& findings, PictureBook& book)
 {
   Page page;
-  page.title = rock_in_title(findings.reference ? findings.reference->rock : "") + ": model and rock";
+  const std::string rock = rock_in_title(findings.reference ? findings.reference->rock : "");
+  page.title = rock + ": model and rock";
+  if (findings.one_folder)
+    set_labels(page, findings.all.front().made_by, findings.reference ? rock : "");
   std::size_t n_tests = 0;
   for (const auto& series : findings.all)
     n_tests += series.tests.size();
   page.subtitle =
     fmt::format("Feldspar report of {} test{} in {} series.", n_tests, n_tests == 1 ? "" : "s", findings.all.size());
+  page.prints_folded = !findings.is_study() && !findings.has_many();
   page.sections.push_back(verdict_section(findings));
-  if (PageSection study = study_section(findings, book); !study.blocks.empty())
-    page.sections.push_back(std::move(study));
   page.sections.push_back(envelope_section(findings, book));
   page.sections.push_back(curve_section(findings, book));
   if (PageSection sample = sample_section(findings, book); !sample.blocks.empty())
@@ -157,16 +178,30 @@ Page page_of(const Findings& findings, PictureBook& book)
   for (Picture& picture : overview)
     picture.caption = findings.titled(picture.caption, findings.all.front());
   book.keep_as_files(overview);
-  if (!findings.has_many()) // the key of many curves would push the tables off the first screen
+  PageSection study = study_section(findings, book);
+  const bool is_first = !study.blocks.empty() && !study.blocks.front().lead.empty(); // else it has warnings alone
+  if (findings.has_many())
+    {
+      for (std::size_t k = 1; k + 1 < page.sections.size(); ++k)
+        if (std::any_of(page.sections[k].blocks.begin(), page.sections[k].blocks.end(),
+                        [](const PageBlock& block) { return !block.pictures.empty(); }))
+          page.sections[k].folded = fmt::format("The first {} series, one by one", most_series_in_full);
+    }
+  else if (!is_first) // the key of many curves would push the tables off the first screen
     {
       std::vector<PagePicture>& lead = page.sections.front().blocks.front().lead;
       lead = taken_out(page.sections, rank_of_specimen);
-      append(lead, taken_out(page.sections, rank_of_answer));
+      if (lead.empty())
+        lead = taken_out(page.sections, rank_of_sample);
+      if (const bool is_sample = !lead.empty() && lead.front().picture.story.empty(); !is_sample)
+        append(lead, taken_out(page.sections, rank_of_answer));
       append(lead, taken_out(page.sections, rank_of_curves));
     }
-  // After the lead was chosen: how the parameters were found does not tell whether the model is the rock.
+  // A page begins with what its run was made for.
+  if (!study.blocks.empty())
+    page.sections.insert(page.sections.begin() + (is_first ? 0 : 1), std::move(study));
   if (findings.calibration)
-    page.sections.insert(page.sections.begin() + 1, calibration_section(*findings.calibration, book));
+    page.sections.insert(page.sections.begin(), calibration_section(*findings.calibration, book));
   return page;
 }
 
@@ -230,9 +265,11 @@ std::vector<std::string> write_report(const CalibrationRecord& calibration, cons
                                       const DrawingWatch& watch)
 {
   PictureBook book;
-  Page page{rock_in_title(calibration.rock) + ": calibration",
-            "Feldspar report of a calibration without tests of its answer.",
-            {calibration_section(calibration, book)}};
+  const std::string rock = rock_in_title(calibration.rock);
+  Page page{.title = rock + ": calibration",
+            .subtitle = "Feldspar report of a calibration without tests of its answer.",
+            .sections = {calibration_section(calibration, book)}};
+  set_labels(page, calibration.made_by, rock);
   const std::string not_drawn = write_files(page, book, folder, watch);
   return not_drawn.empty() ? std::vector<std::string>() : std::vector{not_drawn};
 }

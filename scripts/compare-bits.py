@@ -205,7 +205,7 @@ def main():
         part = Comparison(whole.expected)
         folders = [os.path.join(results, name) for results in (old_results, new_results)]
         files = []
-        for pattern in ("summary.json", "calibration.json", "exit-code.json", "cracks.csv", "curves/*.csv", "grains/*.csv"):
+        for pattern in ("summary.json", "calibration.json", "exit-code.json", "cracks.csv", "steps.csv", "curves/*.csv", "grains/*.csv"):
             files += sorted(os.path.relpath(file, folders[0]) for file in glob.glob(os.path.join(folders[0], pattern)))
         if "summary.json" not in files:
             sys.exit(f"{folders[0]}: no results")

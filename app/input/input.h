@@ -64,6 +64,16 @@ struct VariantParameters
   bool named_by_number = false; ///< in files, as those of runs that were begun before names had values
 };
 
+/// Texts of the user for the head of a report; empty where there are none.
+struct ReportLabels
+{
+  std::string title;
+  std::string client;
+  std::string specimen;
+  std::string author;
+  std::string date; ///< as it was written: no clock
+};
+
 /// All that an input file says. A default-constructed value is what an empty file means.
 struct Input
 {
@@ -97,6 +107,7 @@ struct Input
   SampleParameters sample;
   ContinuumParameters continuum;
   CalibrationParameters calibration;
+  ReportLabels report_labels;
   std::string reference_file;    ///< figures of the rock that results are set beside; empty: none
   std::string reference_results; ///< summary.json of tests on another body of the same rock; empty: none
 };

@@ -398,6 +398,34 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
                        "largest gap that gets a joint, over the mean radius")};
 }
 
+std::vector<Entry<ReportLabels>> label_entries()
+{
+  using L = ReportLabels;
+  const auto label = [](const std::string_view name, std::string L::*const member, const std::string_view meaning) {
+    return Entry<L>{
+      name,
+      Entry<L>::Text{
+        "", "none, or a text",
+        [=](L& labels, const std::string_view text) {
+          constexpr std::size_t most = 200; // bytes: a line or two of a heading
+          if (text.size() > most)
+            throw InputError(fmt::format("is too long: {} bytes, at most {} are allowed", text.size(), most));
+          if (printable(text) != text)
+            throw InputError(fmt::format("{} is no line of UTF-8 text without control characters", in_quotes(text)));
+          labels.*member = text == none ? "" : text;
+        },
+        [=](const L& labels) { return labels.*member == "" ? std::string(none) : labels.*member; }},
+      meaning,
+      {}};
+  };
+  return {
+    label("Title", &L::title, "heading of the report; names the run in tables and keys, instead of its folder"),
+    label("Client", &L::client, "under the heading of the report"),
+    label("Specimen", &L::specimen, "name of the specimen, under the heading and at the top of each printed page"),
+    label("Author", &L::author, "under the heading of the report"),
+    label("Date", &L::date, "under the heading and at the top of each printed page, as it is written here")};
+}
+
 std::vector<Entry<Input>> report_entries()
 {
   return {

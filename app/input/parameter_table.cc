@@ -63,6 +63,7 @@ std::vector<Parameter> make_parameter_table()
   add("Continuum", &Input::continuum, continuum_entries());
   add("Calibration", &Input::calibration, calibration_list_entries());
   add("Calibration", &Input::calibration, calibration_entries());
+  add("Report", &Input::report_labels, label_entries());
   add_own("Report", report_entries());
   return table;
 }

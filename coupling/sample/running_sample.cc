@@ -130,11 +130,13 @@ void SampleTest::Parts::go(const std::function<fem::NewtonReport(double)>& solve
           avalanche = false;
           n_cuts_for_breaks = 0;
           gather_cracks();
+          note_step(report);
           share_work();
           step_done();
           continue;
         }
       body->reject();
+      ++step_on_its_way.n_cuts;
       const bool breaks_too_much = !avalanche && report.n_events > most_events;
       const bool was_cut = steps->cut();
       if (!was_cut && !breaks_too_much)
@@ -166,6 +168,17 @@ void SampleTest::Parts::share_work()
   ranks.longest += balance.longest;
   ranks.longest_unmoved += balance.longest_unmoved;
   ranks.n_moves += balance.moved;
+}
+
+void SampleTest::Parts::note_step(const fem::NewtonReport& report)
+{
+  step_on_its_way.step = bookkeeping.steps;
+  step_on_its_way.axial_strain = seated ? axial_strain() : 0.0;
+  step_on_its_way.n_iterations = report.n_iterations;
+  step_on_its_way.n_cascades = report.n_cascades;
+  step_on_its_way.residual = report.residuals.back();
+  bookkeeping.solver_work->steps.push_back(step_on_its_way);
+  step_on_its_way = {};
 }
 
 void SampleTest::Parts::gather_cracks()

@@ -54,6 +54,7 @@ struct SampleTest::Parts
   bool avalanche = false;                ///< the next of these steps may break as much as it likes
   unsigned int most_events_per_segment = 1;
   unsigned int n_cuts_for_breaks = 0; ///< of the step that is tried
+  SolverStep step_on_its_way;         ///< what was given up for it
   bool seated = false;
   bool ended = false;
   double height_at_seating = 0.0; ///< displacement of the top [m]
@@ -78,6 +79,8 @@ struct SampleTest::Parts
   /// that is left.
   void go(const std::function<fem::NewtonReport(double)>& solve);
   void share_work();
+  /// Keeps what an accepted step took.
+  void note_step(const fem::NewtonReport& report);
   /// Called after each accepted step. Cracks of a point come in the order in which they broke, points in the order of
   /// their numbers.
   void gather_cracks();

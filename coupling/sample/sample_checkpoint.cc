@@ -32,6 +32,8 @@ void SampleTest::Parts::transfer(Archive& archive, std::string& fields_written, 
   archive.text("ended_early", record.ended_early);
   transfer_flag(archive, "came_apart", record.came_apart);
   archive.bytes("curve", record.curve);
+  archive.bytes("solver_steps", bookkeeping.solver_work->steps);
+  archive.value("n_cuts_of_step", step_on_its_way.n_cuts);
   archive.text("fields_written", fields_written);
   for (const std::string& boundary : body->boundaries())
     archive.value("pressure_" + boundary + "_Pa", solid.pressures[boundary]);

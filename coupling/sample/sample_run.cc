@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -118,7 +119,11 @@ TestOutcome SampleTest::finish(const bool interrupted) const
     {
       outcome.bookkeeping.steps = last;
       std::erase_if(record.cracks, [=](const Crack& crack) { return crack.step > last; });
+      std::erase_if(outcome.bookkeeping.solver_work->steps, [=](const SolverStep& one) { return one.step > last; });
     }
+  outcome.bookkeeping.largest_residual = 0.0;
+  for (const SolverStep& one : outcome.bookkeeping.solver_work->steps)
+    outcome.bookkeeping.largest_residual = std::max(outcome.bookkeeping.largest_residual, one.residual);
   return outcome;
 }
 

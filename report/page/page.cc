@@ -280,12 +280,16 @@ std::string rendered(const Page& page, const std::filesystem::path& figures, con
       one.set("id", section.id);
       one.set("short_title", section.short_title);
       one.set("heading", section.heading);
+      set_unless_empty(one, "section_folded", section.folded);
       one.set("blocks", blocks);
       sections << one;
     }
   data whole = data::type::object;
   whole.set("title", page.title);
   whole.set("subtitle", page.subtitle);
+  set_unless_empty(whole, "labels", page.labels);
+  set_unless_empty(whole, "paper_head", page.paper_head);
+  whole.set("brief_on_paper", data(!page.prints_folded));
   whole.set("sections", sections);
   whole.set("script_hash", hash_of_script());
   whole.set("script", std::string(page_script));

@@ -56,13 +56,17 @@ struct PageSection
   std::string short_title; ///< for the list of sections
   std::string heading;
   std::vector<PageBlock> blocks;
+  std::string folded = {}; ///< heading of all its blocks where they are to be opened first
 };
 
 struct Page
 {
-  std::string title;
-  std::string subtitle;
-  std::vector<PageSection> sections;
+  std::string title = {};
+  std::string subtitle = {};
+  std::string labels = {};     ///< client, specimen, author and date, or empty
+  std::string paper_head = {}; ///< top of each printed page; empty: none
+  std::vector<PageSection> sections = {};
+  bool prints_folded = true; ///< parts that are to be opened stand on paper, too
 };
 
 /// Writes the page as one file that needs no other and no network. Pictures stand in it as data, as far as the text leaves

@@ -62,7 +62,14 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
   const SampleView view(fields, scale);
   const std::vector<SamplePiece> pieces = view.pieces();
   const auto& share = fields.of_each_cell.at(share_field);
-  const double most = *std::max_element(share.begin(), share.end());
+  // Between the cells themselves: where most of them broke alike, a scale from 0 would show one colour.
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const SamplePiece& piece : pieces)
+    {
+      least = std::min(least, share[piece.cell]);
+      most = std::max(most, share[piece.cell]);
+    }
 
   double most_dense = 0.0;
   for (const SamplePiece& piece : pieces)
@@ -124,6 +131,9 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
                   ? std::string("at the end")
                   : fmt::format("at row {} of {} of the curve", fields.n_rows, test.record.curve.size()),
                 scale);
+  caption += most > least ? fmt::format(". Colours go from the least share, {:.3g} %, to the largest, {:.3g} %",
+                                        least / percent, most / percent)
+                          : fmt::format(". All cells have the same share, {:.3g} %", most / percent);
   if (fields.is_axisymmetric())
     caption += ". The left half is the mirror image of the right";
   else if (fields.dimension == 3)
@@ -153,7 +163,9 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
               .y = {.label = stands_on_z ? "z [mm]" : "y [mm]",
                     .from = (middle[1] - 0.5 * height) / milli,
                     .to = (middle[1] + 0.5 * height) / milli},
-              .colour = {.label = "broken segments [%]", .from = 0.0, .to = most > 0.0 ? most / percent : 1.0},
+              .colour = {.label = "broken segments [%]",
+                         .from = most > least ? least / percent : 0.0,
+                         .to = most > 0.0 ? most / percent : 1.0},
               // Light where little broke, so that the strokes are seen; its brightness falls all the way.
               .palette = {"#f3f1ea", "#fdd49e", "#fc8d59", "#d7301f", "#a00000"},
               .equal_scales = true,

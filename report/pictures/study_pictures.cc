@@ -2,6 +2,7 @@
 #include "report/chart/gnuplot_writer.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
+#include "report/pictures/study_lines.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
 #include "results/statistics.h"
@@ -25,169 +26,28 @@ namespace
 {
 using namespace plot;
 
-/// A result over which a study is shown.
-struct Property
-{
-  std::string_view name; ///< of files
-  std::string_view title;
-  std::string_view unit;
-  double scale;
-  Figure TestResults::*figure;
-};
-
 constexpr std::size_t most_lines = 6;
-
-/// The numbers that an entry takes, in one unit.
-struct VariedEntry
-{
-  std::string entry;
-  std::string unit;
-  std::set<double> values;
-};
-
-/// Entries that take two numbers or more; an entry with other values, or with several units, is left out.
-std::vector<VariedEntry> varied_entries(const std::vector<Series>& all)
-{
-  std::map<std::string, std::optional<VariedEntry>> found;
-  for (const Series& series : all)
-    for (const FinishedTest& test : series.tests)
-      for (const VariantSetting& setting : test.settings)
-        {
-          const auto number = number_of(setting);
-          auto& entry =
-            found.try_emplace(setting.entry, VariedEntry{setting.entry, number ? number->unit : "", {}}).first->second;
-          if (!number || (entry && entry->unit != number->unit))
-            entry.reset();
-          else if (entry)
-            entry->values.insert(number->value);
-        }
-  std::vector<VariedEntry> result;
-  for (auto& [name, entry] : found)
-    if (entry && entry->values.size() > 1)
-      result.push_back(std::move(*entry));
-  return result;
-}
-
-/// Returns whether another entry has one value for each number of this one and rises or falls with it: a picture over
-/// this entry is then over both. A name that comes with a number goes along, too.
-bool goes_along(const std::vector<Series>& all, const VariedEntry& entry, const std::string& other)
-{
-  std::map<double, std::string> companion;
-  for (const Series& series : all)
-    for (const FinishedTest& test : series.tests)
-      {
-        std::optional<double> number;
-        std::string value;
-        for (const VariantSetting& setting : test.settings)
-          if (setting.entry == entry.entry)
-            number = number_of(setting)->value;
-          else if (setting.entry == other)
-            value = setting.value;
-        if (number && companion.try_emplace(*number, value).first->second != value)
-          return false;
-      }
-  std::vector<double> numbers;
-  for (const auto& [number, value] : companion)
-    if (const auto of_other = number_of({other, value}))
-      numbers.push_back(of_other->value);
-  return numbers.size() != companion.size() || std::is_sorted(numbers.begin(), numbers.end()) ||
-         std::is_sorted(numbers.rbegin(), numbers.rend());
-}
-
-/// An entry to draw over, with those that go along with it.
-struct Abscissa
-{
-  VariedEntry varied;
-  std::set<std::string> along;
-};
-
-/// Abscissas of the pictures of a study; of entries that go along with each other, the first.
-std::vector<Abscissa> abscissas(const std::vector<Series>& all)
-{
-  const std::vector<VariedEntry> varied = varied_entries(all);
-  std::set<std::string> entries;
-  for (const Series& series : all)
-    for (const FinishedTest& test : series.tests)
-      for (const VariantSetting& setting : test.settings)
-        entries.insert(setting.entry);
-  std::vector<Abscissa> result;
-  for (const VariedEntry& entry : varied)
-    {
-      Abscissa one{entry, {}};
-      for (const std::string& other : entries)
-        if (other != entry.entry && goes_along(all, entry, other))
-          one.along.insert(other);
-      const bool is_known = std::any_of(result.begin(), result.end(), [&](const Abscissa& before) {
-        return before.along.contains(entry.entry) && one.along.contains(before.varied.entry);
-      });
-      if (!is_known)
-        result.push_back(std::move(one));
-    }
-  return result;
-}
-
-/// The results of one test of the programme and one combination of the entries that do not go along.
-struct Line
-{
-  TestKind kind;
-  std::string title;  ///< of the test
-  std::string others; ///< the combination in words; empty: none
-  std::map<double, std::vector<double>> results;
-
-  std::string label() const { return others.empty() ? title : title + ", " + others; }
-};
-
-std::vector<Line> lines_of(const std::vector<Series>& all, const Abscissa& over, const Property& property,
-                           const bool with_others)
-{
-  std::vector<Line> lines;
-  for (const Series& series : all)
-    for (const TestGroup& group : groups_of(series))
-      for (const FinishedTest* const test : group.tests)
-        {
-          const Figure& figure = test->results.*property.figure;
-          if (!test->counts() || !figure.value)
-            continue;
-          std::optional<double> value;
-          std::string others;
-          for (const VariantSetting& setting : test->settings)
-            if (setting.entry == over.varied.entry)
-              value = number_of(setting)->value;
-            else if (with_others && !over.along.contains(setting.entry))
-              others += fmt::format("{}{} = {}", others.empty() ? "" : ", ",
-                                    setting.entry.substr(setting.entry.find('/') + 1), setting.value);
-          if (!value)
-            continue;
-          auto line = std::find_if(lines.begin(), lines.end(),
-                                   [&](const Line& one) { return one.title == group.title() && one.others == others; });
-          if (line == lines.end())
-            line = lines.insert(lines.end(), {group.kind, group.title(), others, {}});
-          line->results[*value].push_back(*figure.value / property.scale);
-        }
-  std::erase_if(lines, [](const Line& line) { return line.results.size() < 2; });
-  return lines;
-}
 
 /// Selection of lines that a picture of a result shows.
 struct Selection
 {
-  std::vector<Line> lines;
+  std::vector<StudyLine> lines;
   std::string ending = {}; ///< of the name of its files
   std::string remark = {}; ///< for its caption
   bool joined = true;      ///< the means, by lines
 };
 
 /// Returns so many of the lines, the first and the last among them.
-std::vector<Line> spread(const std::vector<Line>& lines, const std::size_t n)
+std::vector<StudyLine> spread(const std::vector<StudyLine>& lines, const std::size_t n)
 {
-  std::vector<Line> result;
+  std::vector<StudyLine> result;
   for (std::size_t k = 0; k < n; ++k)
     result.push_back(lines[k * (lines.size() - 1) / (n - 1)]);
   return result;
 }
 
 /// All in one picture if they have room there; else a picture for each kind of test, of which many lines are thinned out.
-std::vector<Selection> selections(const std::vector<Series>& all, const Abscissa& over, const Property& property)
+std::vector<Selection> selections(const std::vector<Series>& all, const Abscissa& over, const StudiedResult& property)
 {
   Selection whole{lines_of(all, over, property, true)};
   if (whole.lines.empty()) // no two tests differ in this entry alone
@@ -199,7 +59,7 @@ std::vector<Selection> selections(const std::vector<Series>& all, const Abscissa
   if (whole.lines.size() <= most_lines)
     return {whole};
   std::vector<Selection> result;
-  for (const Line& line : whole.lines)
+  for (const StudyLine& line : whole.lines)
     {
       const auto same = std::find_if(result.begin(), result.end(),
                                      [&](const Selection& one) { return one.lines.front().kind == line.kind; });
@@ -217,7 +77,7 @@ std::vector<Selection> selections(const std::vector<Series>& all, const Abscissa
   return result;
 }
 
-Picture picture_of(const Selection& shown, const Abscissa& over, const Property& property)
+Picture picture_of(const Selection& shown, const Abscissa& over, const StudiedResult& property)
 {
   constexpr int width = 660; // [px]
   const std::string& entry = over.varied.entry;
@@ -256,7 +116,7 @@ Picture picture_of(const Selection& shown, const Abscissa& over, const Property&
 using Cells = std::map<std::array<double, 2>, std::vector<double>>;
 
 /// The results of the tests of one kind and pressure, by the values of the two entries.
-Cells cells_of(const std::vector<Series>& all, const std::vector<Abscissa>& over, const Property& property,
+Cells cells_of(const std::vector<Series>& all, const std::vector<Abscissa>& over, const StudiedResult& property,
                const TestGroup& wanted)
 {
   Cells cells;
@@ -289,7 +149,7 @@ std::array<double, 2> cell_about(const double value, const std::set<double>& val
 
 /// A map of a result over two entries: a grid as fields with their means, other designs as points.
 std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<Abscissa>& over,
-                              const Property& property, const TestGroup& group)
+                              const StudiedResult& property, const TestGroup& group)
 {
   constexpr std::size_t fewest = 4;       // less is no map
   constexpr std::size_t most_labels = 80; // beyond them numbers run into each other
@@ -354,18 +214,6 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
                 .series = {std::move(fields), std::move(numbers)}}}};
 }
 
-/// The quantities that studies show. Named for what they are: of a body with flaws the highest stress is a nominal one.
-std::vector<Property> properties_of(const std::vector<Series>& all)
-{
-  std::vector<Property> named;
-  for (const auto& one : test_quantities)
-    if (!one.studies.picture.empty())
-      named.push_back({one.studies.picture, one.title, one.shown.unit, one.shown.scale, one.figure()});
-  if (any_has_flaws(all))
-    named.front().title = "highest nominal stress";
-  return named;
-}
-
 std::vector<Picture> maps(const std::vector<Series>& all, const std::vector<Abscissa>& over)
 {
   if (over.size() != 2)
@@ -376,7 +224,7 @@ std::vector<Picture> maps(const std::vector<Series>& all, const std::vector<Absc
       if (std::none_of(groups.begin(), groups.end(), [&](const TestGroup& one) { return same_conditions(one, group); }))
         groups.push_back(group);
   std::vector<Picture> pictures;
-  for (const Property& property : properties_of(all))
+  for (const StudiedResult& property : studied_results(all))
     for (const TestGroup& group : shown(groups))
       if (auto map = map_of(all, over, property, group))
         pictures.push_back(std::move(*map));
@@ -389,7 +237,7 @@ std::vector<Picture> study_pictures(const std::vector<Series>& all)
   std::vector<Picture> pictures;
   const std::vector<Abscissa> over_all = abscissas(all);
   for (const Abscissa& over : over_all)
-    for (const Property& property : properties_of(all))
+    for (const StudiedResult& property : studied_results(all))
       for (const Selection& selection : selections(all, over, property))
         pictures.push_back(picture_of(selection, over, property));
   append(pictures, maps(all, over_all));

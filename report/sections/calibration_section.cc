@@ -2,10 +2,13 @@
 #include "report/pictures/figures.h"
 #include "report/sections/sections.h"
 #include "report/sections/text.h"
+#include "report/sections/verdict.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,6 +40,53 @@ std::string heading(const std::string& title, const ShownUnit& unit)
 bool was_tested(const CalibrationRecord& record)
 {
   return std::any_of(record.parameters.begin(), record.parameters.end(), [](const auto& row) { return row.median; });
+}
+
+/// The decision on all targets in a sentence.
+std::string decision_on(const CalibrationRecord& record)
+{
+  std::vector<std::string> missed, open;
+  for (const auto& row : record.targets)
+    if (row.verdict == TargetVerdict::missed)
+      missed.push_back(row.title);
+    else if (row.verdict == TargetVerdict::not_decided)
+      open.push_back(row.title);
+  const std::string tolerance = fmt::format("{:g} %", 100.0 * record.tolerance);
+  const std::size_t n = record.targets.size();
+  if (missed.empty() && open.empty())
+    return fmt::format("Reached. {} within {} of the laboratory's value.",
+                       n == 1 ? "The target lies" : fmt::format("All {} targets lie", n), tolerance);
+  std::string decision;
+  if (!missed.empty())
+    decision = fmt::format("Missed. {} more than {} off", subject_of(missed, "is", "are"), tolerance);
+  if (!open.empty())
+    decision +=
+      fmt::format("{}{} more packings", decision.empty() ? "Not decided. " : ". ", subject_of(open, "needs", "need"));
+  return decision + fmt::format("; {} of {} targets {} reached.", n - missed.size() - open.size(), n,
+                                n - missed.size() - open.size() == 1 ? "is" : "are");
+}
+
+/// A target as a tile: the mean with its 95 % interval on a bar with the tolerance.
+Tile tile_of(const CalibrationRecord::TargetRow& row, const double tolerance)
+{
+  const ShownUnit unit = shown_unit(row.unit, row.target);
+  const std::string behind = (unit.name.empty() ? "" : " ") + unit.name;
+  const auto n = std::size_t(row.n_packings > 0.0 ? std::min(row.n_packings, 1e9) : 0.0);
+  const double size = std::abs(row.target);
+  const TargetMean mean{row.title, row.deviation,
+                        row.standard_error ? std::optional(*row.standard_error / size) : std::nullopt, n};
+  Tile tile{.property = row.title,
+            .value = shown(row.reached, unit, 4) + behind,
+            .notes = fmt::format("target {}{}, {}; {}", shown(row.target, unit, 4), behind,
+                                 signed_percent(row.deviation), n > 0 ? words(row.verdict) : "predicted, not tested"),
+            .n = n,
+            .mean = row.reached,
+            .deviation = size * mean.half_width().value_or(0.0),
+            .low = row.target - tolerance * size,
+            .high = row.target + tolerance * size};
+  if (row.verdict != TargetVerdict::not_decided)
+    tile.in_range = row.verdict == TargetVerdict::reached;
+  return tile;
 }
 
 Table target_table(const CalibrationRecord& record)
@@ -139,19 +189,24 @@ PageSection calibration_section(const CalibrationRecord& record, PictureBook& bo
   const bool tested = was_tested(record);
   PageSection section{"calibration",
                       "Calibration",
-                      tested ? "How the micro-parameters were found"
-                             : "Which micro-parameters come nearest to the targets?",
+                      tested ? "Were the targets reached?" : "Which micro-parameters come nearest to the targets?",
                       {}};
   PageBlock block;
-  block.headline = sentence(record.statement);
+  block.headline = tested ? decision_on(record) : sentence(record.statement);
+  for (const auto& row : record.targets)
+    block.tiles.push_back(tile_of(row, record.tolerance));
   if (!tested)
     block.paragraphs.push_back("The answer was not tested, because the surrogates of the design already tell this. "
                                "nearest.prm has the nearest micro-parameters, design.csv every test of the design.");
   else
-    block.paragraphs.push_back(fmt::format(
-      "A target is reached if the 95 % interval of its mean over packings lies within the tolerance of {:g} %, "
-      "missed if the interval lies beyond it, and else not decided.",
-      100.0 * record.tolerance));
+    {
+      if (record.verdict != TargetVerdict::reached)
+        block.paragraphs.push_back(sentence(record.statement));
+      block.paragraphs.push_back(fmt::format(
+        "A target is reached if the 95 % interval of its mean over packings lies within the tolerance of {:g} %, "
+        "missed if the interval lies beyond it, and else not decided.",
+        100.0 * record.tolerance));
+    }
   block.tables.push_back(target_table(record));
   if (!record.parameters.empty())
     block.tables.push_back(parameter_table_of(record));

@@ -30,6 +30,8 @@ struct Findings
   const CalibrationRecord* calibration = nullptr;      ///< of which the first series tests the answer
 
   bool has_several() const { return all.size() > 1; }
+  /// Returns whether the series are the variants of one run.
+  bool is_study() const { return one_folder && has_several() && !all.front().tests.front().settings.empty(); }
   bool has_many() const { return all.size() > most_series_in_full; }
 
   /// Returns whether the n-th series has blocks and pictures of its own: one of the first, or measured on rock.

@@ -2,11 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace feldspar
 {
+namespace
+{
+constexpr input_entries::EntryName labels[] = {input_entries::report_title, input_entries::report_client,
+                                               input_entries::report_specimen, input_entries::report_author,
+                                               input_entries::report_date};
+} // namespace
+
 std::string sentence_of(const Provenance& made_by)
 {
   const auto or_unknown = [](const std::string& text, const char* unknown) { return text.empty() ? unknown : text; };
@@ -16,10 +26,52 @@ std::string sentence_of(const Provenance& made_by)
     or_unknown(made_by.processor, "an unknown processor"), made_by.n_threads, made_by.n_threads == 1 ? "" : "s");
 }
 
+std::string labels_of(const Provenance& made_by)
+{
+  std::string line;
+  for (const auto& [word, entry] : {std::pair("Client", input_entries::report_client),
+                                    {"Specimen", input_entries::report_specimen},
+                                    {"Author", input_entries::report_author},
+                                    {"Date", input_entries::report_date}})
+    if (const std::string label = made_by.label_of(entry); !label.empty())
+      line += fmt::format("{}{}: {}", line.empty() ? "" : " · ", word, label);
+  return line;
+}
+
+std::string paper_head_of(const Provenance& made_by, const std::string& rock)
+{
+  if (labels_of(made_by).empty() && made_by.label_of(input_entries::report_title).empty())
+    return "";
+  std::string line = rock;
+  for (const auto& entry : {input_entries::report_date, input_entries::report_specimen})
+    if (const std::string label = made_by.label_of(entry); !label.empty())
+      line += (line.empty() ? "" : " · ") + label;
+  return line;
+}
+
+namespace
+{
+/// Entries of the input but for texts of the head of a report that are not there.
+std::vector<InputEntry> told_entries(const Provenance& made_by)
+{
+  std::vector<InputEntry> told;
+  for (const auto& entry : made_by.input)
+    {
+      const bool is_label =
+        std::any_of(std::begin(labels), std::end(labels), [&](const input_entries::EntryName& label) {
+          return entry.section == label.section && entry.entry == label.entry;
+        });
+      if (!is_label || entry.value != "none")
+        told.push_back(entry);
+    }
+  return told;
+}
+} // namespace
+
 Table input_table(const Provenance& made_by, const std::string& name)
 {
   Table table{name, "Input as it was understood", {"section", "entry", "value"}, {}};
-  for (const auto& entry : made_by.input)
+  for (const auto& entry : told_entries(made_by))
     table.rows.push_back({entry.section, entry.entry, entry.value});
   return table;
 }
@@ -28,13 +80,13 @@ Table input_table(const Provenance& made_by, const std::string& name, const Prov
 {
   using Place = std::pair<std::string, std::string>;
   std::map<Place, std::string> of_first;
-  for (const auto& entry : first.input)
+  for (const auto& entry : told_entries(first))
     of_first[{entry.section, entry.entry}] = entry.value;
   Table table{name,
               fmt::format("Input where it differs from that of {}", label),
               {"section", "entry", "value", label},
               {}};
-  for (const auto& entry : made_by.input)
+  for (const auto& entry : told_entries(made_by))
     {
       const auto there = of_first.extract(Place{entry.section, entry.entry});
       if (there.empty() || there.mapped() != entry.value)

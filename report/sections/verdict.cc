@@ -64,23 +64,30 @@ Tile tile_of(const ComparisonRow& row)
   return tile;
 }
 
-/// Names of a few properties as the subject of a sentence, with its verb; of many their number.
 std::string subject(const std::vector<const ComparisonRow*>& rows, const char* const singular, const char* const plural)
+{
+  std::vector<std::string> properties;
+  for (const ComparisonRow* row : rows)
+    properties.push_back(row->property);
+  return subject_of(properties, singular, plural);
+}
+} // namespace
+
+std::string subject_of(const std::vector<std::string>& properties, const char* const singular, const char* const plural)
 {
   constexpr std::size_t most_named = 4;
   std::vector<std::string> names;
-  for (const ComparisonRow* row : rows)
-    names.push_back(row->property.substr(0, row->property.find(','))); // Young's modulus, tangent 40-60 % of peak
+  for (const std::string& property : properties)
+    names.push_back(property.substr(0, property.find(','))); // Young's modulus, tangent 40-60 % of peak
   names.erase(std::unique(names.begin(), names.end()), names.end());
   if (names.size() > most_named)
-    return fmt::format("{} properties {}", rows.size(), plural);
+    return fmt::format("{} properties {}", properties.size(), plural);
   std::string text;
   for (std::size_t k = 0; k < names.size(); ++k)
     text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
   text.front() = char(std::toupper(static_cast<unsigned char>(text.front())));
   return text + " " + (names.size() == 1 ? singular : plural);
 }
-} // namespace
 
 Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference,
                 const std::string& reason_for_no_reference)

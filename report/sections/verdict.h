@@ -20,4 +20,7 @@ struct Verdict
 /// `reason_for_no_reference`: why there is none although there should be one.
 Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference,
                 const std::string& reason_for_no_reference);
+
+/// Names of a few properties as the subject of a sentence, with its verb; of many their number.
+std::string subject_of(const std::vector<std::string>& properties, const char* singular, const char* plural);
 } // namespace feldspar

@@ -34,8 +34,8 @@ std::string count_and_names(const std::vector<std::string>& names)
   return names.empty() ? "✓ none" : fmt::format("✗ {}: {}", names.size(), fmt::join(names, ", "));
 }
 
-/// The measures of the blocks of few series, a row for each series.
-PageBlock verdict_of_many(const Findings& findings)
+/// The measures of the blocks of few series, a row for each series; the table is to be opened.
+std::vector<PageBlock> verdict_of_many(const Findings& findings)
 {
   Table table{"verdicts",
               "Every series: tests made and wanted, properties in and out of the range of experiments, measures out of "
@@ -84,11 +84,14 @@ PageBlock verdict_of_many(const Findings& findings)
              : findings.reference_problem) +
           ".";
   block.paragraphs.push_back(
-    fmt::format("Measures are out of their bounds in {} of {} series; the section Trust has their "
-                "worst values. Every warning in words is in {} of its run (verdict).",
+    fmt::format("Measures are out of their bounds in {} of {} series; the section Trust has their worst values. The "
+                "warnings on each series are in {} of its run (verdict).",
                 n_warned, n_models, result_file::summary));
-  block.tables.push_back(std::move(table));
-  return block;
+  block.warnings = grouped_warnings(findings.all);
+  PageBlock every;
+  every.folded = "Every series";
+  every.tables = {std::move(table), comparison_of_many(findings)};
+  return {block, every};
 }
 } // namespace
 
@@ -99,13 +102,17 @@ PageSection verdict_section(const Findings& findings)
                       findings.reference ? "Does the model match the rock?" : "Results and how far to trust them",
                       {}};
   if (findings.has_many())
-    section.blocks.push_back(verdict_of_many(findings));
+    section.blocks = verdict_of_many(findings);
   // A problem that keeps all models from being compared is said once: for one model in its headline, for several below
   // them.
   const auto n_models = std::count_if(findings.all.begin(), findings.all.end(),
                                       [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
   const bool is_problem_below = !findings.reference_problem.empty() && n_models != 1;
-  const SharedWarnings shared = shared_warnings(findings.all);
+  SharedWarnings shared;
+  if (findings.is_study() || findings.has_many())
+    shared = {grouped_warnings(findings.all), std::vector<std::vector<std::string>>(findings.all.size())};
+  else
+    shared = shared_warnings(findings.all);
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       if (findings.has_many() && findings.all[n].kind != SeriesKind::laboratory_curve)
@@ -132,12 +139,6 @@ PageSection verdict_section(const Findings& findings)
             block.headline = found.headline;
           else if (!is_problem_below)
             block.paragraphs.push_back(found.headline);
-          if (n == 0 && findings.calibration)
-            {
-              const std::string statement = "Calibration: " + text::sentence(findings.calibration->statement);
-              block.headline =
-                block.headline.empty() ? statement : statement + " Comparison with the experiments: " + block.headline;
-            }
           block.tiles = found.tiles;
           block.points = found.points;
           if (block.warnings.empty() && shared.of_all.empty())
@@ -161,7 +162,8 @@ PageSection verdict_section(const Findings& findings)
     remarks.warnings.push_back(findings.reference_problem + ".");
   for (const std::string& remark : gap_remarks(findings.all))
     remarks.warnings.push_back(remark + ".");
-  table.tables.push_back(findings.has_many() ? comparison_of_many(findings) : comparison_table(findings));
+  if (!findings.has_many())
+    table.tables.push_back(comparison_table(findings));
   if (findings.reference && findings.calibration)
     table.paragraphs.push_back(fmt::format(
       "Of the reference, Young's modulus is taken to be the {} one and Poisson's ratio the {} one, as in the calibration.",

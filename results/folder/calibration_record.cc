@@ -83,7 +83,8 @@ CalibrationRecord from_json(const Json& json, const std::string& file)
   CalibrationRecord record;
   record.rock = printable(text_of(json, "rock"));
   record.statement = text(json, "statement");
-  record.elastic = elastic_figures(read_provenance(json));
+  record.made_by = read_provenance(json);
+  record.elastic = elastic_figures(record.made_by);
   record.tolerance = number(json, "tolerance");
   const bool has_verdicts = json.contains("verdict");
   for (const auto& [name, row] : json.at("targets").items())

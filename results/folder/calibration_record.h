@@ -1,5 +1,6 @@
 #pragma once
 
+#include "results/runs/run.h"
 #include "results/target_verdict.h"
 
 #include <filesystem>
@@ -53,7 +54,8 @@ struct CalibrationRecord
   std::string rock;
   std::string statement;
   TargetVerdict verdict = TargetVerdict::not_decided; ///< on all targets
-  ElasticFigures elastic;                             ///< of its reference
+  Provenance made_by;
+  ElasticFigures elastic; ///< of its reference
   double tolerance = 0.0;
   std::vector<TargetRow> targets;
   std::vector<ParameterRow> parameters;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -241,6 +242,25 @@ TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::strin
   TableRows<Crack> cracks;
   cracks.remark = read_cracks_into(file, {{name, kind, &cracks.rows}});
   return cracks;
+}
+
+void write_steps(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
+{
+  constexpr double round_off = 1e-8; // a smaller residual is noise of the sums that it is made of
+  std::string text = "test,step,axial_strain,iterations,residual,cascades,cuts\n";
+  bool any = false;
+  for (const auto& test : tests)
+    if (const auto& work = test.bookkeeping.solver_work)
+      for (const SolverStep& step : work->steps)
+        {
+          any = true;
+          const double strain = test.record.kind.sign * step.axial_strain;
+          fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{},{:.1e},{},{}\n", test.name, step.step,
+                         strain == 0.0 ? 0.0 : strain, step.n_iterations, std::max(step.residual, round_off),
+                         step.n_cascades, step.n_cuts);
+        }
+  if (any)
+    write_whole_file(file, text);
 }
 
 std::string group_name(const TestRecord& test) { return test.specimen.n_clumps > 0 ? "clump" : "mineral_grain"; }

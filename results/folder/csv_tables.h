@@ -35,6 +35,10 @@ void write_cracks(const std::vector<Crack>& cracks, const std::string& name, con
                   const std::filesystem::path& file);
 TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind);
 
+/// The steps of the samples of finite elements among the tests, a row a step; nothing where there is none. Counts and two
+/// digits of residuals, so that the number of processes, which changes the order of sums, leaves the file as it is.
+void write_steps(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
+
 /// Name of the groups of a test's grains in files.
 std::string group_name(const TestRecord& test);
 

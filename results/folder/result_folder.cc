@@ -277,6 +277,7 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
         write_rve(rve, test, folder / result_file::points);
     }
   write_cracks(tests, folder / result_file::cracks);
+  write_steps(tests, folder / result_file::steps);
   write_tests(tests, folder / result_file::tests);
   write_summary(made_by, tests, envelopes, folder / result_file::summary);
 }

@@ -16,6 +16,7 @@ inline constexpr const char* summary = "summary.json";
 inline constexpr const char* curves = "curves";
 inline constexpr const char* cracks = "cracks.csv";
 inline constexpr const char* tests = "tests.csv";
+inline constexpr const char* steps = "steps.csv";
 inline constexpr const char* grains = "grains";
 inline constexpr const char* fields = "fields";
 inline constexpr const char* points = "points";
@@ -25,7 +26,7 @@ inline constexpr const char* tables = "tables";
 inline constexpr const char* page = "report.html";
 } // namespace result_file
 
-/// Writes what a later report needs: summary.json, tests.csv, curves/, cracks.csv, grains/, points/. The fields of finite
+/// Writes what a later report needs: summary.json, tests.csv, curves/, cracks.csv, steps.csv of samples, grains/, points/. The fields of finite
 /// elements, fields/, are there already.
 void write_result_folder(const Provenance& made_by, const std::vector<FinishedTest>& tests,
                          const RunEnvelopes& envelopes, const std::filesystem::path& folder);

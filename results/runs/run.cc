@@ -13,6 +13,12 @@ std::string Provenance::value_of(const input_entries::EntryName& wanted) const
   return found == input.end() ? "" : found->value;
 }
 
+std::string Provenance::label_of(const input_entries::EntryName& wanted) const
+{
+  const std::string value = value_of(wanted);
+  return value == "none" ? "" : value;
+}
+
 bool any_has_flaws(const std::vector<FinishedTest>& tests)
 {
   return std::any_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.has_flaws(); });

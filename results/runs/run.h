@@ -30,6 +30,8 @@ struct Provenance
 
   /// Value of an entry with its unit; empty where the input is not known or has no such entry.
   std::string value_of(const input_entries::EntryName& wanted) const;
+  /// Text of the user for the head of a report; empty where there is none.
+  std::string label_of(const input_entries::EntryName& wanted) const;
 };
 
 /// A finished test with its results.

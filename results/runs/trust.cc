@@ -392,6 +392,57 @@ SharedWarnings shared_warnings(const std::vector<Series>& series)
   return shared;
 }
 
+std::vector<std::string> grouped_warnings(const std::vector<Series>& series)
+{
+  struct Alike
+  {
+    std::string form; ///< without names of tests and digits
+    std::string first;
+    std::size_t n; ///< models
+  };
+  std::vector<Alike> all_alike;
+  std::vector<std::string> problems;
+  TestsOfRock all;
+  std::size_t n_models = 0;
+  SeriesKind kind = SeriesKind::specimens;
+  for (const Series& one : series)
+    {
+      for (const auto& problem : one.problems)
+        problems.push_back(problem + ".");
+      if (one.kind == SeriesKind::laboratory_curve)
+        continue;
+      ++n_models;
+      kind = one.kind;
+      append(all, all_of(one));
+      std::set<std::string> forms;
+      for (const std::string& sentence : shortcomings(all_of(one), one.kind))
+        {
+          std::string form = sentence;
+          for (const FinishedTest& test : one.tests)
+            if (const std::size_t at = form.find(test.name); at != std::string::npos)
+              form.erase(at, test.name.size());
+          std::erase_if(form, [](const char c) { return '0' <= c && c <= '9'; });
+          if (!forms.insert(form).second)
+            continue;
+          const auto same =
+            std::find_if(all_alike.begin(), all_alike.end(), [&](const Alike& known) { return known.form == form; });
+          if (same == all_alike.end())
+            all_alike.push_back({form, sentence, 1});
+          else
+            ++same->n;
+        }
+    }
+  std::vector<std::string> sentences;
+  for (const auto& [form, first, n] : all_alike)
+    sentences.push_back(
+      n == 1 ? first : fmt::format("{} (so in {} of {} series).", first.substr(0, first.size() - 1), n, n_models));
+  for (const TrustCheck& check : trust_checks(all, kind))
+    if (check.n_out > 0)
+      sentences.push_back(out_of_bounds(check));
+  append(sentences, problems);
+  return sentences;
+}
+
 std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests)
 {
   std::vector<RockTests> rocks;

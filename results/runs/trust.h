@@ -65,6 +65,10 @@ struct SharedWarnings
 
 SharedWarnings shared_warnings(const std::vector<Series>& series);
 
+/// Warnings on many models, each once with the number of models that it holds for: alike are those that differ in names of
+/// tests and numbers alone. Measures are those of all tests together.
+std::vector<std::string> grouped_warnings(const std::vector<Series>& series);
+
 /// The tests of one rock: those of a variant, or all of a run without variants.
 struct RockTests
 {

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -48,6 +49,28 @@ std::string contents(const std::filesystem::path& file)
   return text.str();
 }
 
+/// A column of a table, by the name at its head.
+std::vector<double> column(const std::filesystem::path& curve, const std::string& name)
+{
+  std::ifstream file(curve);
+  std::string line;
+  std::getline(file, line);
+  std::size_t wanted = 0;
+  std::istringstream head(line);
+  for (std::string entry; std::getline(head, entry, ',') && entry != name;)
+    ++wanted;
+  std::vector<double> values;
+  while (std::getline(file, line))
+    {
+      std::istringstream row(line);
+      std::string entry;
+      for (std::size_t k = 0; k <= wanted; ++k)
+        std::getline(row, entry, ',');
+      values.push_back(std::stod(entry));
+    }
+  return values;
+}
+
 TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
 {
   TemporaryFolder folder;
@@ -79,8 +102,27 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
                                  "one/curves/direct_tension_seed_1.csv", "one/rves/specimen_seed_2.h5"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
 
+  // Each equilibrium is a row of steps.csv: together they took what the whole test took.
+  const auto steps = [&](const char* const name) { return column(folder.path() / "one/steps.csv", name); };
+  const auto sum = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); };
+  const auto& work = test.at("solver_work");
+  ASSERT_EQ(steps("step").size(), test.at("steps").get<std::size_t>());
+  EXPECT_EQ(steps("step").front(), 1.0);
+  EXPECT_EQ(double(steps("step").size()) + sum(steps("cuts")), work.at("solves").get<double>());
+  EXPECT_LT(sum(steps("iterations")), work.at("iterations").get<double>()); // those of searches that were given up, too
+  EXPECT_GT(sum(steps("cascades")), 0.0);
+  EXPECT_GT(sum(steps("cuts")), 0.0) << "no step was cut";
+  const std::vector<double> residuals = steps("residual");
+  const double largest = *std::max_element(residuals.begin(), residuals.end());
+  EXPECT_LE(largest, 1e-5);                                                        // Newton's tolerance
+  EXPECT_NEAR(test.at("largest_residual").get<double>(), largest, 0.05 * largest); // two digits
+  const auto strain = column(folder.path() / "one/curves/direct_tension_seed_1.csv", "axial_strain");
+  EXPECT_NEAR(steps("axial_strain").back(), strain.back(), 1e-8 * strain.back());
+  const std::string trust = contents(folder.path() / "one/tables/trust.csv");
+  EXPECT_NE(trust.find("unbalanced over internal force of a sample"), std::string::npos) << trust;
+
   ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output two --quiet --threads 2").exit_code, 0);
-  for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv"})
+  for (const char* const file : {"cracks.csv", "steps.csv", "curves/direct_tension_seed_1.csv"})
     EXPECT_EQ(contents(folder.path() / "one" / file), contents(folder.path() / "two" / file)) << file;
 
   // Beside a specimen of grains both are series of one report.
@@ -103,28 +145,6 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
 
 const std::string pull =
   input("  set Tension step = 5e-6\n", "  set List = direct_tension\n  set Stop strain = 3e-4\n");
-
-/// A column of a curve, by the name at its head.
-std::vector<double> column(const std::filesystem::path& curve, const std::string& name)
-{
-  std::ifstream file(curve);
-  std::string line;
-  std::getline(file, line);
-  std::size_t wanted = 0;
-  std::istringstream head(line);
-  for (std::string entry; std::getline(head, entry, ',') && entry != name;)
-    ++wanted;
-  std::vector<double> values;
-  while (std::getline(file, line))
-    {
-      std::istringstream row(line);
-      std::string entry;
-      for (std::size_t k = 0; k <= wanted; ++k)
-        std::getline(row, entry, ',');
-      values.push_back(std::stod(entry));
-    }
-  return values;
-}
 
 /// The forces of both ends are equal to Newton's tolerance, 1e-5, of what an end carries in this row or the one before.
 void expect_ends_to_agree(const std::filesystem::path& curve)
@@ -220,7 +240,8 @@ TEST(Multiscale, KilledAndResumedGoesOnToTheSameBits)
   run_feldspar(folder.path(), "multiscale --resume broken --quiet", "timeout --foreground --signal=KILL 0.6");
   const auto last = run_without_pictures(folder.path(), "multiscale --resume broken --quiet");
   ASSERT_EQ(last.exit_code, 0) << last.error;
-  for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv", "fields/direct_tension_seed_1.xdmf"})
+  for (const char* const file :
+       {"cracks.csv", "steps.csv", "curves/direct_tension_seed_1.csv", "fields/direct_tension_seed_1.xdmf"})
     EXPECT_EQ(contents(folder.path() / "whole" / file), contents(folder.path() / "broken" / file)) << file;
   EXPECT_NE(run_feldspar(folder.path(), "multiscale --resume broken").output.find("this run is complete"),
             std::string::npos);
@@ -257,7 +278,7 @@ TEST(Multiscale, EndsCleanlyOnInterruptAndSaysHowToResume)
   EXPECT_EQ(summary.at("tests").at(0).at("interrupted"), true);
   ASSERT_EQ(run_without_pictures(folder.path(), "multiscale --resume out --quiet").exit_code, 0);
   ASSERT_EQ(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet").exit_code, 0);
-  for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv"})
+  for (const char* const file : {"cracks.csv", "steps.csv", "curves/direct_tension_seed_1.csv"})
     EXPECT_EQ(contents(folder.path() / "whole" / file), contents(folder.path() / "out" / file)) << file;
 }
 

@@ -75,6 +75,10 @@ void expect_same_run(const fs::path& one, const fs::path& other, const std::size
     for (std::size_t c = 0; c < 5; ++c) // test, kind, joint, segment, step
       ASSERT_EQ(cracks[k][c], other_cracks[k][c]) << "line " << k + 1;
 
+  // Each step took as many iterations, cascades and cuts.
+  EXPECT_EQ(table(one / "steps.csv"), table(other / "steps.csv"));
+  EXPECT_GT(table(one / "steps.csv").size(), 1u);
+
   const auto curve = table(one / "curves" / (test_name + ".csv"));
   const auto other_curve = table(other / "curves" / (test_name + ".csv"));
   ASSERT_EQ(curve.size(), other_curve.size());

@@ -220,6 +220,11 @@ end
 subsection Report
   set Reference file = rock.json
   set Reference results = summary.json
+  set Title = Tunnel <7>, "north"
+  set Client = Nagra & Co
+  set Specimen = BS06-3
+  set Author = Ümit
+  set Date = 29 November
 end
 )";
 
@@ -249,6 +254,21 @@ TEST(Input, FindsAFileAboveAFolderThatIsGone)
   const auto rock = folder.write("rock.json", "{}");
   const auto prm = folder.write("a.prm", "subsection Report\n  set Reference file = ../rock.json\nend\n");
   EXPECT_EQ(read_input(prm, folder.path() / "gone").reference_file, rock.string());
+}
+
+// Texts for the head of a report are any line of UTF-8; a control character would end a line of a file or of the screen.
+TEST(Input, TextsOfAReportAreALineEach)
+{
+  EXPECT_EQ(error_of("a.json", R"({"Report": {"Title": "Caf\u00e9 <b>"}})"), "");
+  const std::string of_bell = error_of("a.json", R"({"Report": {"Title": "a\u0007b"}})");
+  EXPECT_NE(of_bell.find("Report/Title"), std::string::npos) << of_bell;
+  EXPECT_NE(of_bell.find("\"a\\x07b\" is no line of UTF-8 text without control characters"), std::string::npos)
+    << of_bell;
+  const std::string of_lines = error_of("a.json", R"({"Report": {"Client": "a\nb"}})");
+  EXPECT_NE(of_lines.find("Report/Client"), std::string::npos) << of_lines;
+  EXPECT_EQ(of_lines.find('\n'), std::string::npos) << of_lines;
+  const std::string too_long = error_of_entry("Report", "Author = " + std::string(201, 'a'));
+  EXPECT_NE(too_long.find("is too long: 201 bytes, at most 200 are allowed"), std::string::npos) << too_long;
 }
 
 TEST(Input, AnEmptyFileMeansTheDefaults)
@@ -442,6 +462,11 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.equilibrium.kinematics, Kinematics::finite);
   EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
   EXPECT_EQ(input.reference_results, (folder.path() / "summary.json").string());
+  EXPECT_EQ(input.report_labels.title, "Tunnel <7>, \"north\"");
+  EXPECT_EQ(input.report_labels.client, "Nagra & Co");
+  EXPECT_EQ(input.report_labels.specimen, "BS06-3");
+  EXPECT_EQ(input.report_labels.author, "Ümit");
+  EXPECT_EQ(input.report_labels.date, "29 November");
 }
 
 TEST(Input, EveryEntryOfCoresReachesItsMember)

@@ -1281,16 +1281,166 @@ TEST(Report, OfACalibrationBeginsWithItsStatementAndHasThePairsBelow)
     EXPECT_NE(at, std::string::npos) << words;
     return at;
   };
+  const std::size_t decision =
+    place("Not decided. Poisson&apos;s ratio needs more packings; 1 of 2 targets is reached.");
   const std::size_t first_line = place(
-    "Calibration: All targets were reached within 3 %. Comparison with the experiments: Yes. Uniaxial compressive strength, Young&apos;s modulus "
-    "and Poisson&apos;s ratio lie within the measured ranges (3 specimens).");
+    "Yes. Uniaxial compressive strength, Young&apos;s modulus and Poisson&apos;s ratio lie within the measured ranges "
+    "(3 specimens).");
   place("Young&apos;s modulus, initial</span> <b><span class=\"mark\">✓</span> 60.0");
   place("Young&apos;s modulus is taken to be the initial one and Poisson&apos;s ratio the initial one");
-  const std::size_t found = place("How the micro-parameters were found");
-  EXPECT_LT(first_line, page.find("<figcaption>"));
-  EXPECT_LT(first_line, found);
-  EXPECT_LT(found, place("Micro-parameters that agree with the tests"));
-  EXPECT_LT(page.find("<figcaption>"), found) << "no picture stands beside the first question";
+  EXPECT_LT(place("Were the targets reached?"), decision);
+  EXPECT_LT(decision, place("target 161.5 MPa, +1.0 %; reached</span>"));
+  EXPECT_LT(decision, place("Micro-parameters that agree with the tests"));
+  EXPECT_LT(place("Micro-parameters that agree with the tests"), first_line);
+}
+
+TEST(CalibrationSection, BeginsWithTheDecisionInWordsAndATileForEachTarget)
+{
+  CalibrationRecord record = calibration_record();
+  record.tolerance = 0.03;
+  PictureBook book;
+  const auto headline = [&](const TargetVerdict strength, const TargetVerdict ratio) {
+    record.targets[0].verdict = strength;
+    record.targets[1].verdict = ratio;
+    return calibration_section(record, book).blocks.at(0).headline;
+  };
+  using enum TargetVerdict;
+  EXPECT_EQ(headline(reached, reached), "Reached. All 2 targets lie within 3 % of the laboratory's value.");
+  EXPECT_EQ(headline(missed, reached),
+            "Missed. Uniaxial compressive strength is more than 3 % off; 1 of 2 targets is reached.");
+  EXPECT_EQ(
+    headline(missed, missed),
+    "Missed. Uniaxial compressive strength and Poisson's ratio are more than 3 % off; 0 of 2 targets are reached.");
+  EXPECT_EQ(headline(missed, not_decided),
+            "Missed. Uniaxial compressive strength is more than 3 % off. Poisson's ratio needs more "
+            "packings; 0 of 2 targets are reached.");
+  EXPECT_EQ(headline(reached, not_decided),
+            "Not decided. Poisson's ratio needs more packings; 1 of 2 targets is reached.");
+  const std::vector<Tile> tiles = calibration_section(record, book).blocks.at(0).tiles;
+  ASSERT_EQ(tiles.size(), 2u);
+  EXPECT_EQ(tiles[0].value, "163.0 MPa");
+  EXPECT_EQ(tiles[0].n, 12u);
+  EXPECT_EQ(tiles[0].in_range, std::optional(true));
+  EXPECT_NEAR(tiles[0].low.value(), 161.5e6 * 0.97, 1.0);
+  // Half of the 95 % interval: Student's t of eleven degrees of freedom is 2.201.
+  EXPECT_NEAR(tiles[0].deviation, 2.201 * 1.234e6, 1e3);
+  EXPECT_FALSE(tiles[1].in_range) << "what is not decided is neither in nor out";
+}
+
+/// A run of variants of two entries: friction adds 50 MPa, the modulus nothing.
+std::vector<Series> two_entries()
+{
+  std::vector<Series> all;
+  for (const char* const friction : {"0.2", "0.5"})
+    for (const char* const modulus : {"50 GPa", "60 GPa", "70 GPa"})
+      {
+        Series series{fmt::format("Friction = {}, Modulus = {}", friction, modulus), SeriesKind::specimens, {}, {}, {}};
+        series.tests = {compression(1)};
+        FinishedTest& test = series.tests.front();
+        test.name = fmt::format("uniaxial_compression_{}_seed_1", all.size());
+        test.variant = series.label;
+        test.settings = {{"Flat joint/Friction", friction}, {"Flat joint/Modulus", modulus}};
+        test.results.peak_stress = {friction == std::string("0.2") ? 100e6 : 150e6, ""};
+        test.results.energy_imbalance_over_work = 0.02;
+        all.push_back(series);
+      }
+  return all;
+}
+
+std::string page_of(const std::vector<Series>& all)
+{
+  ReportInput input;
+  input.all = all;
+  for (const Series& series : all)
+    input.envelopes.push_back(fit_strength_envelopes(strength_data(series.tests)));
+  const TemporaryFolder folder;
+  write_report(input, folder.path(), {[] { return true; }, [](std::size_t, std::size_t) {}}); // without pictures
+  return content(folder.path() / "report.html");
+}
+
+std::size_t times(const std::string& text, const std::string& words)
+{
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; at += words.size())
+    ++n;
+  return n;
+}
+
+TEST(Report, OfAStudyBeginsWithItsEffectsAndItsMap)
+{
+  const std::string page = page_of(two_entries());
+  const std::size_t study = page.find("<section id=\"study\">");
+  ASSERT_NE(study, std::string::npos);
+  EXPECT_EQ(page.find("<section "), study) << "the page begins elsewhere";
+  EXPECT_NE(
+    page.find("Uniaxial compression, strength [MPa]: Friction from 0.2 to 0.5: 100 to 150 (+50.0 %); Modulus has no "
+              "effect."),
+    std::string::npos);
+  const std::size_t map = page.find("over Flat joint/Friction and Flat joint/Modulus: mean over the seeds");
+  EXPECT_LT(page.find("<div class=\"beside\">", study), map);
+  EXPECT_LT(map, page.find("<details>", study)) << "the map is folded";
+  EXPECT_NE(page.find("<th scope=\"row\">Uniaxial compression: strength [MPa]</th><td>100 to 150 (+50.0 %)</td>"
+                      "<td>no effect</td>"),
+            std::string::npos);
+  // Folded parts do not stand on paper, and a warning on all stands once.
+  EXPECT_NE(page.find("<body class=\"brief-on-paper\">"), std::string::npos);
+  EXPECT_EQ(times(page, "Only 1 specimen: "), 1u);
+  EXPECT_EQ(times(page, "take 3 seeds or more (so in 6 of 6 series)."), 1u);
+  EXPECT_EQ(times(page, "Out of bounds in 6 of 6 tests: energy imbalance over boundary work"), 1u);
+}
+
+TEST(Report, OfOneEntrySaysWhereAResultIsHighestBetweenItsEnds)
+{
+  std::vector<Series> all = two_entries();
+  all.erase(all.begin() + 3, all.end());
+  const char* const moduli[] = {"50 GPa", "60 GPa", "70 GPa"};
+  for (std::size_t k = 0; k < all.size(); ++k)
+    {
+      all[k].tests.front().settings = {{"Flat joint/Modulus", moduli[k]}};
+      all[k].tests.front().results.peak_stress = {k == 1 ? 130e6 : 100e6, ""};
+    }
+  EXPECT_NE(page_of(all).find("strength [MPa]: Modulus from 50 to 70 GPa: 100 to 100 (+0.0 %); 130 at 60 GPa."),
+            std::string::npos);
+}
+
+TEST(Trust, OfManySeriesCountsWhatIsAlikeButForNamesAndNumbers)
+{
+  std::vector<Series> all = two_entries();
+  for (std::size_t k = 0; k < 3; ++k)
+    all[k].tests.front().record.failure = fmt::format("no grains: {} were packed", k);
+  const auto sentences = grouped_warnings(all);
+  ASSERT_EQ(sentences.size(), 3u);
+  EXPECT_EQ(sentences[0], "uniaxial_compression_0_seed_1 could not be finished: no grains: 0 were packed (so in 3 of 6 "
+                          "series).");
+  EXPECT_TRUE(sentences[1].ends_with("(so in 6 of 6 series).")) << sentences[1];
+  EXPECT_TRUE(sentences[2].starts_with("Out of bounds in 3 of 3 tests: energy imbalance")) << sentences[2];
+}
+
+// Texts of the user: a heading, a name in tables and keys, a line under the heading and one at the top of each sheet.
+TEST(Report, BearsTheTextsOfItsUser)
+{
+  std::vector<Series> all{{"out", SeriesKind::specimens, {}, {compression(1), compression(2), compression(3)}, {}}};
+  const std::string without = page_of(all);
+  EXPECT_EQ(without.find("<div class=\"paper-head\">"), std::string::npos);
+  for (const char* const entry : {"Title", "Client", "Specimen", "Author", "Date"})
+    all[0].made_by.input.push_back({"Report", entry, "none"});
+  EXPECT_EQ(page_of(all), without) << "an empty text changes the page";
+  const auto write = [&](const std::size_t k, const char* const text) { all[0].made_by.input[k].value = text; };
+  write(0, "Tunnel <b>7</b>");
+  write(1, "Nagra & Co");
+  write(2, "BS06-3");
+  write(4, "2026-11-29");
+  const std::string page = page_of(all);
+  for (const char* const words :
+       {"<title>Tunnel &lt;b&gt;7&lt;/b&gt;</title>", "<h1>Tunnel &lt;b&gt;7&lt;/b&gt;</h1>",
+        "<p>Client: Nagra &amp; Co · Specimen: BS06-3 · Date: 2026-11-29</p>",
+        "<div class=\"paper-head\"><p>2026-11-29 · BS06-3</p></div>", "<th scope=\"row\">Report</th><td>Client</td>"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_EQ(page.find("<b>7"), std::string::npos) << "a title became a part of the page";
+  EXPECT_EQ(page.find("<td>Author</td>"), std::string::npos);
+  // Beside another run it is named by its title.
+  all.push_back({"other", SeriesKind::specimens, {}, {compression(1)}, {}});
+  EXPECT_NE(page_of(all).find("</span>Tunnel &lt;b&gt;7&lt;/b&gt;</h3>"), std::string::npos);
 }
 
 TEST(CalibrationRecord, KnowsWhichFiguresItsReferenceHasAndNeedsNoPosterior)

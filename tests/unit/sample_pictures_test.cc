@@ -110,6 +110,23 @@ TEST(SamplePicture, DrawsCellsAsTheyAreDisplacedAndSaysHowMuch)
   EXPECT_NEAR(chart.colour.to.value(), 3.0, 1e-9); // 3 % of the last cell
 }
 
+// A scale from 0 would show cells that broke nearly alike in one colour.
+TEST(SamplePicture, HasTheColoursOfItsOwnCells)
+{
+  SampleFields fields = blocks(2);
+  fields.of_each_cell["broken_segments_share"] = {0.031, 0.030, 0.0325, 0.032};
+  const Picture alike = sample_picture(test_with(fields), "Direct tension").at(0);
+  EXPECT_NEAR(alike.panels.at(0).colour.from.value(), 3.0, 1e-9);
+  EXPECT_NEAR(alike.panels.at(0).colour.to.value(), 3.25, 1e-9);
+  EXPECT_NE(alike.caption.find("from the least share, 3 %, to the largest, 3.25 %"), std::string::npos)
+    << alike.caption;
+  // One share for all cells leaves a scale with room.
+  fields.of_each_cell["broken_segments_share"] = {0.03, 0.03, 0.03, 0.03};
+  const Picture same = sample_picture(test_with(fields), "Direct tension").at(0);
+  EXPECT_LT(same.panels.at(0).colour.from.value(), same.panels.at(0).colour.to.value());
+  EXPECT_NE(same.caption.find("All cells have the same share, 3 %"), std::string::npos) << same.caption;
+}
+
 TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)
 {
   auto test = test_with(blocks(2));
