@@ -110,8 +110,11 @@ std::vector<PagePicture> taken_out(std::vector<PageSection>& sections, std::size
   return taken;
 }
 
-/// Rank of a specimen that the viewer shows: by what there is to see.
-std::size_t rank_of_specimen(const Picture& picture) { return picture.story.size(); }
+/// Rank of the specimens that the viewer shows: by what there is to see.
+std::size_t rank_of_specimen(const Picture& picture)
+{
+  return picture.name.find("_cracks") == std::string::npos ? 0 : picture.story.size();
+}
 
 /// Rank of the picture beside the specimen: the strengths with one fit, else any curve.
 std::size_t rank_of_answer(const Picture& picture)

@@ -64,6 +64,7 @@ struct ReportOptions
   std::vector<std::filesystem::path> curves; ///< measured in a laboratory
   std::optional<std::filesystem::path> reference;
   std::optional<std::filesystem::path> output;
+  bool film = false;
   bool force = false;
   bool quiet = false;
 };

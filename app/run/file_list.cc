@@ -27,6 +27,7 @@ constexpr const char* list_name = ".feldspar-files";
 constexpr const char* earlier_name = ".feldspar-before";
 constexpr const char* record_name = "run.json";
 constexpr const char* page_name = "report.html";
+constexpr const char* film_name = "film.webp";
 
 bool has(const std::vector<std::string_view>& names, const std::string& wanted)
 {
@@ -183,8 +184,8 @@ bool Places::include(const std::filesystem::path& relative) const
 const Places& places_of_runs()
 {
   static const Places places{{record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv",
-                              "reference.json", page_name, "log.txt", "calibration.json", "design.csv", "posterior.csv",
-                              "best.prm", "nearest.prm"},
+                              "reference.json", page_name, film_name, "log.txt", "calibration.json", "design.csv",
+                              "posterior.csv", "best.prm", "nearest.prm"},
                              {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
                               "figures", "tables", "calibration", "volumes" /* of 0.2.0, now rves */},
                              true};
@@ -205,7 +206,7 @@ const Places& places_of_contacts()
 
 const Places& places_of_reports()
 {
-  static const Places places{{page_name}, {"figures", "tables"}, false};
+  static const Places places{{page_name, film_name}, {"figures", "tables"}, false};
   return places;
 }
 

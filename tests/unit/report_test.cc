@@ -1571,10 +1571,16 @@ std::vector<unsigned int> numbers_in(const std::string& base64, const std::size_
   return numbers;
 }
 
+/// Data of the viewer of one test.
+nlohmann::json data_of(const FinishedTest& test)
+{
+  return nlohmann::json::parse(specimen_data({{&test, "rock"}}))["tests"][0];
+}
+
 TEST(SpecimenData, GivesEachCrackTheRowByWhichItIsThere)
 {
   const FinishedTest test = compression(1);
-  const auto json = nlohmann::json::parse(specimen_data(test));
+  const auto json = data_of(test);
   ASSERT_EQ(json["rows"].size(), 31u);
   EXPECT_EQ(json["rows"][20], nlohmann::json::parse("[2.0, 120.0, 30, 5]")); // 10⁻³, MPa
   EXPECT_FALSE(json["space"]);
@@ -1602,17 +1608,17 @@ TEST(SpecimenData, GivesEachCrackTheRowByWhichItIsThere)
 
   FinishedTest grouped = test; // of a mineral grain or clump
   grouped.appearance.grains_at_end[0].mineral = 1;
-  const auto tones = numbers_in(nlohmann::json::parse(specimen_data(grouped))["grains"]["tone"], 1);
+  const auto tones = numbers_in(data_of(grouped)["grains"]["tone"], 1);
   EXPECT_EQ((std::vector(tones.begin(), tones.begin() + 3)), (std::vector{0xeau, 0xd9u, 0xb8u}));
 
   FinishedTest flawed = test;
   flawed.appearance.flaws.push_back({"slot", true, {{0.002, 0.004, 0.0}, {0.006, 0.008, 0.0}}});
-  EXPECT_EQ(nlohmann::json::parse(specimen_data(flawed))["flaws"],
+  EXPECT_EQ(data_of(flawed)["flaws"],
             nlohmann::json::parse(R"([{"open": true, "outline": [[2.0, 4.0, 0.0], [6.0, 8.0, 0.0]]}])"));
 
   FinishedTest without = test;
   without.record.cracks.clear();
-  EXPECT_EQ(specimen_data(without), "");
+  EXPECT_EQ(specimen_data({{&without, "rock"}}), "");
 }
 
 TEST(SpecimenData, OfManyGrainsKeepsSomeSoThatAPageStaysSmall)
@@ -1621,13 +1627,38 @@ TEST(SpecimenData, OfManyGrainsKeepsSomeSoThatAPageStaysSmall)
   auto& grains = test.appearance.grains_at_end;
   const GrainPicture grain = grains.front();
   grains.assign(200'000, grain);
-  const std::string most = specimen_data(test);
-  EXPECT_EQ(nlohmann::json::parse(most)["grains"]["every"], 1);
+  const std::string most = specimen_data({{&test, "rock"}});
+  EXPECT_EQ(data_of(test)["grains"]["every"], 1);
   EXPECT_LT(most.size(), 5'000'000u);
   grains.assign(200'001, grain);
-  const auto thinned = nlohmann::json::parse(specimen_data(test))["grains"];
+  const auto thinned = data_of(test)["grains"];
   EXPECT_EQ(thinned["every"], 2);
   EXPECT_EQ(numbers_in(thinned["fragment"], 2).size(), 100'001u);
+
+  // Four tests share the room of one, so that the page has at most 10 MB.
+  test.record.cracks.resize(300'000, test.record.cracks.front());
+  for (GrainPicture& one : grains)
+    one.mineral = 1, one.mean_stress = 1e6;
+  const std::string four = specimen_data({{&test, "a"}, {&test, "b"}, {&test, "c"}, {&test, "d"}});
+  EXPECT_LT(four.size(), 8'500'000u);
+  const auto tests = nlohmann::json::parse(four)["tests"];
+  ASSERT_EQ(tests.size(), 4u);
+  EXPECT_EQ(tests[3]["title"], "d");
+  EXPECT_EQ(tests[3]["grains"]["every"], 5);  // 200 001 of 50 000
+  EXPECT_EQ(tests[3]["cracks"]["every"], 12); // 300 000 of 25 000
+}
+
+TEST(SpecimenData, HasTheMeanStressOfGrainsWhereItIsKnown)
+{
+  FinishedTest test = compression(1);
+  EXPECT_EQ(data_of(test)["grains"]["stress"], "");
+  test.appearance.grains_at_end[0].mean_stress = -80e6;
+  test.appearance.grains_at_end[1].mean_stress = 20e6;
+  const auto grains = data_of(test)["grains"];
+  EXPECT_EQ(grains["most_stress"], 80.0); // MPa
+  const auto stresses = numbers_in(grains["stress"], 2);
+  EXPECT_EQ(std::int16_t(stresses[0]), -32767);
+  EXPECT_EQ(std::int16_t(stresses[1]), 8192); // a quarter
 }
 
 TEST(GroupColours, OfGroupsThatTouchDiffer)
@@ -1724,8 +1755,8 @@ TEST(ResultFolder, NamesTheGroupsOfGrainsForWhatTheyAre)
     const std::string table = content(folder.path() / ("grains/" + test + ".csv"));
     return table.substr(0, table.find('\n'));
   };
-  EXPECT_TRUE(header(minerals.name).ends_with(",fragment,mineral_grain")) << header(minerals.name);
-  EXPECT_TRUE(header(clumps.name).ends_with(",fragment,clump")) << header(clumps.name);
+  EXPECT_TRUE(header(minerals.name).ends_with(",fragment,mineral_grain,mean_stress_Pa")) << header(minerals.name);
+  EXPECT_TRUE(header(clumps.name).ends_with(",fragment,clump,mean_stress_Pa")) << header(clumps.name);
   const auto expect_groups = [&] {
     const auto runs = read_result_folder(folder.path(), test_kinds());
     for (const FinishedTest& test : runs.at(0).tests)

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -108,6 +109,21 @@ TEST(SamplePicture, DrawsCellsAsTheyAreDisplacedAndSaysHowMuch)
   EXPECT_EQ(points_of(chart, outline).size(), 16u);
   EXPECT_EQ(points_of(chart, "at rest").size(), 16u);
   EXPECT_NEAR(chart.colour.to.value(), 3.0, 1e-9); // 3 % of the last cell
+}
+
+TEST(SamplePicture, HasEveryFieldOfItsCellsForThePage)
+{
+  const auto picture = sample_picture(test_with(blocks(2)), "Direct tension").at(0);
+  const auto json = nlohmann::json::parse(picture.live());
+  EXPECT_EQ(json["what"], "sample");
+  EXPECT_EQ(json["scale"], 10.0);
+  ASSERT_EQ(json["cells"].size(), 4u);
+  EXPECT_EQ(json["cells"][3]["rest"], nlohmann::json::parse("[10, 10, 20, 10, 20, 20, 10, 20]"));      // mm
+  EXPECT_EQ(json["cells"][3]["moved"], nlohmann::json::parse("[10, 10.5, 20, 10.5, 20, 21, 10, 21]")); // 10 times
+  EXPECT_EQ(json["fields"][0], nlohmann::json::parse(R"({"field": "broken_segments_share", "name": "broken segments",
+    "unit": "%", "values": [0, 1, 2, 3]})"));
+  EXPECT_EQ(json["fields"][1]["name"], "stress xx");
+  EXPECT_EQ(json["fields"][1]["values"][0], 1.0); // MPa
 }
 
 TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)
