@@ -155,12 +155,13 @@ const specimensView = (figure, data, chart, tools) => {
   const film = nFrames => {
     const frame = box.getBoundingClientRect();
     const sheet = document.createElement("canvas");
-    sheet.width = Math.ceil(frame.width);
-    sheet.height = Math.ceil(Math.max(row.getBoundingClientRect().bottom, key.getBoundingClientRect().bottom) - frame.top) + 4;
+    const edge = 8;
+    sheet.width = Math.ceil(frame.width) + 2 * edge;
+    sheet.height = Math.ceil(Math.max(row.getBoundingClientRect().bottom, key.getBoundingClientRect().bottom) - frame.top) + 2 * edge;
     const pen = sheet.getContext("2d", {alpha: false, willReadFrequently: true});
     const at = one => {
       const {left, top, width, height} = one.getBoundingClientRect();
-      return [left - frame.left, top - frame.top, width, height];
+      return [left - frame.left + edge, top - frame.top + edge, width, height];
     };
     const stills = [];
     const before = set.share;
@@ -176,6 +177,10 @@ const specimensView = (figure, data, chart, tools) => {
       }
       // Each line of a text where it stands.
       pen.fillStyle = theme("--text");
+      for (const one of box.querySelectorAll(".scale")) {
+        const [left, top, width, height] = at(one);
+        pen.fillRect(left, top + height - 2, width, 2);
+      }
       pen.textBaseline = "middle";
       const walk = document.createTreeWalker(box, NodeFilter.SHOW_TEXT);
       for (let text; (text = walk.nextNode());) {

@@ -184,6 +184,9 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
      .raster = pieces.size() > 3000,
      .vector = pieces.size() <= 3000,
      .panels = {std::move(chart)},
-     .story = sample_data(test, view, pieces, scale)}};
+     .story = sample_data(test, view, pieces, scale),
+     .live_caption = fmt::format("{}, seed {}: the cells of the sample at the end, coloured by one of their fields{}",
+                                 title, test.record.seed,
+                                 test.appearance.rves.empty() ? "" : "; letters: the representative volumes below")}};
 }
 } // namespace feldspar
