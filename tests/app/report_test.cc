@@ -743,7 +743,7 @@ public:
     const TemporaryFolder profile; // with its crash reports and caches
     const std::string out = (profile.path() / "out").string();
     const std::string command = fmt::format(
-      "HOME='{0}' timeout 60 chromium --headless=new --no-sandbox --disable-gpu "
+      "HOME='{0}' timeout 120 chromium --headless=new --no-sandbox --disable-gpu "
       "--enable-unsafe-swiftshader --disable-dev-shm-usage "
       "--user-data-dir='{0}/profile' --hide-scrollbars --enable-logging=stderr {1} 'file://{2}' >'{3}' 2>'{3}.err'",
       profile.path().string(), arguments, page.string(), out);
