@@ -16,8 +16,6 @@ namespace feldspar
 namespace
 {
 using Json = nlohmann::ordered_json;
-using live::number;
-using plot::percent;
 
 constexpr std::size_t most_cells = 20'000; ///< some 4 MB
 
@@ -32,7 +30,7 @@ struct FieldTitle
 FieldTitle title_of(const std::string& field)
 {
   for (const auto& [ending, unit, size] :
-       {std::tuple("_share", "%", percent), {"_Pa", "MPa", mega}, {"_per_m", "1/m", 1.0}, {"", "", 1.0}})
+       {std::tuple("_share", "%", plot::percent), {"_Pa", "MPa", mega}, {"_per_m", "1/m", 1.0}, {"", "", 1.0}})
     if (field.ends_with(ending))
       {
         std::string name = field.substr(0, field.size() - std::string_view(ending).size());
@@ -47,7 +45,7 @@ Json corners_of(const std::vector<PlanePoint>& points)
   Json corners = Json::array();
   for (const PlanePoint& point : points)
     for (const double x : point)
-      corners.push_back(number(x / milli));
+      corners.push_back(live::number(x / milli));
   return corners;
 }
 } // namespace
@@ -70,13 +68,13 @@ std::string sample_data(const FinishedTest& test, const SampleView& view, const 
         const FieldTitle title = title_of(field);
         Json of_pieces = Json::array();
         for (const SamplePiece& piece : pieces)
-          of_pieces.push_back(number(values[piece.cell] / title.size, 4));
+          of_pieces.push_back(live::number(values[piece.cell] / title.size, 4));
         all.push_back({{"field", field}, {"name", title.name}, {"unit", title.unit}, {"values", std::move(of_pieces)}});
       }
   Json marks = Json::array();
   for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)
     marks.push_back({{"letter", letter_of_rve(k)}, {"at", corners_of({view.place(test.appearance.rves[k])})}});
   return live::text(
-    {{"what", "sample"}, {"scale", number(scale)}, {"cells", cells}, {"fields", all}, {"marks", marks}});
+    {{"what", "sample"}, {"scale", live::number(scale)}, {"cells", cells}, {"fields", all}, {"marks", marks}});
 }
 } // namespace feldspar

@@ -18,7 +18,6 @@ namespace feldspar
 namespace
 {
 using Json = nlohmann::ordered_json;
-using live::number;
 
 constexpr std::size_t most_rows = 300;
 constexpr std::size_t most_grains = 200'000; ///< of all tests: 5 to 6 MB
@@ -115,12 +114,12 @@ Json grain_data(const std::vector<GrainPicture>& grains, const std::size_t most,
         stresses.add_signed(grains[i].mean_stress / most_stress, 2);
     }
   return {{"every", every},
-          {"most_moved", number(most_moved / milli)},
+          {"most_moved", live::number(most_moved / milli)},
           {"place", places.text()},
           {"moved", moves.text()},
           {"fragment", fragments.text()},
           {"tone", tones.text()},
-          {"most_stress", number(most_stress / mega)},
+          {"most_stress", live::number(most_stress / mega)},
           {"stress", stresses.text()}};
 }
 
@@ -158,7 +157,8 @@ Json flaw_data(const std::vector<FlawPicture>& flaws)
     {
       Json outline = Json::array();
       for (const auto& point : flaw.outline)
-        outline.push_back({number(point[0] / milli), number(point[1] / milli), number(point[2] / milli)});
+        outline.push_back(
+          {live::number(point[0] / milli), live::number(point[1] / milli), live::number(point[2] / milli)});
       all.push_back({{"open", flaw.open}, {"outline", outline}});
     }
   return all;
@@ -183,7 +183,7 @@ Json data_of(const TitledTest& one, const std::size_t n)
     kept.push_back(&record.curve.back());
   Json rows = Json::array();
   for (const CurveSample* row : kept)
-    rows.push_back({number(record.kind.strain(*row) / milli), number(record.kind.stress(*row) / mega, 4),
+    rows.push_back({live::number(record.kind.strain(*row) / milli), live::number(record.kind.stress(*row) / mega, 4),
                     row->n_tension_cracks, row->n_shear_cracks});
 
   // In the order of breaking, so that those broken up to a row are the first.
@@ -201,18 +201,19 @@ Json data_of(const TitledTest& one, const std::size_t n)
   double size = std::numeric_limits<double>::min();
   for (const Crack& crack : cracks)
     size = std::max(size, crack.size);
-  return {{"title", one.title},
-          {"space", record.dimension() == 3},
-          {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
-          {"low", {number(cube.low[0] / milli), number(cube.low[1] / milli), number(cube.low[2] / milli)}},
-          {"span", number(cube.span / milli)},
-          {"radius", number(radius / milli)},
-          {"size", number(size / milli)},
-          {"gap", number(record.specimen.installation_gap_ratio * mean_radius / milli)},
-          {"rows", rows},
-          {"grains", grain_data(grains, most_grains / n, cube, radius)},
-          {"flaws", flaw_data(test.appearance.flaws)},
-          {"cracks", crack_data(cracks, kept, cube, most_cracks / n, size)}};
+  return {
+    {"title", one.title},
+    {"space", record.dimension() == 3},
+    {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
+    {"low", {live::number(cube.low[0] / milli), live::number(cube.low[1] / milli), live::number(cube.low[2] / milli)}},
+    {"span", live::number(cube.span / milli)},
+    {"radius", live::number(radius / milli)},
+    {"size", live::number(size / milli)},
+    {"gap", live::number(record.specimen.installation_gap_ratio * mean_radius / milli)},
+    {"rows", rows},
+    {"grains", grain_data(grains, most_grains / n, cube, radius)},
+    {"flaws", flaw_data(test.appearance.flaws)},
+    {"cracks", crack_data(cracks, kept, cube, most_cracks / n, size)}};
 }
 } // namespace
 
