@@ -162,12 +162,14 @@ private:
       .add_option("--output", report.output,
                   "folder of the report (default: the folder itself if there is one, else report-results-001, ...)")
       ->type_name("DIR");
+    command.add_flag("--film", report.film, "write the cracking of the tests as film.webp too, by Chromium");
     command.add_flag("--force", report.force, "write over what is in the folder");
     add_threads(command);
     command.add_flag("--quiet", report.quiet, "do not say what is missing in it");
     command.callback([this] { chosen = [this] { return run_report(report); }; });
     add_examples(command, "feldspar report granite slate --reference rock.json\n"
-                          "  feldspar report granite --curve core.csv");
+                          "  feldspar report granite --curve core.csv\n"
+                          "  feldspar report granite --film");
   }
 
   void add_parameters()

@@ -36,6 +36,7 @@ struct GrainPicture
   double radius;                  ///< [m]
   std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
   std::uint32_t mineral = 0;      ///< number of the mineral grain or clump it is a part of, from 1; 0: of none
+  double mean_stress = 0.0;       ///< in the snapshot of the highest load, tension positive [Pa]; 0 of all: not known
 };
 
 /// The grains at one row of the curve.

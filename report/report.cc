@@ -114,8 +114,11 @@ std::vector<PagePicture> taken_out(std::vector<PageSection>& sections, std::size
   return taken;
 }
 
-/// Rank of a specimen that the viewer shows: by what there is to see.
-std::size_t rank_of_specimen(const Picture& picture) { return picture.story.size(); }
+/// Rank of the specimens that the viewer shows: by what there is to see.
+std::size_t rank_of_specimen(const Picture& picture)
+{
+  return picture.name.find("_cracks") == std::string::npos ? 0 : picture.story.size();
+}
 
 /// Rank of a sample of finite elements, which stands where there is no specimen: one that was pressed first.
 std::size_t rank_of_sample(const Picture& picture)

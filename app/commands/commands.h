@@ -75,6 +75,7 @@ struct ReportOptions
   std::string curve_size;                    ///< diameter and height of their cylinders; empty: not given
   std::optional<std::filesystem::path> reference;
   std::optional<std::filesystem::path> output;
+  bool film = false;
   bool force = false;
   bool quiet = false;
 };

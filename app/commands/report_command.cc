@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "dem/lab/protocols/protocols.h"
+#include "report/film.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 
@@ -19,6 +20,8 @@ int run_report(const ReportOptions& options)
   if (!options.curve_size.empty())
     order.curve_size = parse_cylinder_size(options.curve_size);
   // The report of one folder goes into it, beside its results.
+  if (options.film)
+    check_film_is_possible(); // before anything is written
   const bool beside_results = order.result_folders.size() == 1 && !options.output;
   if (options.reference)
     read_reference(*options.reference, test_kinds()); // before anything is written
@@ -41,6 +44,13 @@ int run_report(const ReportOptions& options)
     for (const auto& sentence : missing)
       print_result("{}\n", printable(sentence));
   print_result("{}\n", (order.output / result_file::page).string());
+  if (options.film)
+    {
+      progress.start("film");
+      write_film(order.output / result_file::page, order.output / result_file::film);
+      progress.finish("done");
+      print_result("{}\n", (order.output / result_file::film).string());
+    }
   return 0;
 }
 } // namespace feldspar

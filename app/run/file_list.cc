@@ -27,6 +27,7 @@ constexpr const char* list_name = ".feldspar-files";
 constexpr const char* earlier_name = ".feldspar-before";
 constexpr const char* record_name = "run.json";
 constexpr const char* page_name = "report.html";
+constexpr const char* film_name = "film.webp";
 
 bool has(const std::vector<std::string_view>& names, const std::string& wanted)
 {
@@ -181,14 +182,14 @@ bool Places::include(const std::filesystem::path& relative) const
 }
 
 const Places places_of_runs{{record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv",
-                             "steps.csv", "reference.json", page_name, "log.txt", "calibration.json", "design.csv",
-                             "posterior.csv", "best.prm", "nearest.prm"},
+                             "steps.csv", "reference.json", page_name, film_name, "log.txt", "calibration.json",
+                             "design.csv", "posterior.csv", "best.prm", "nearest.prm"},
                             {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
                              "figures", "tables", "calibration", "volumes" /* of 0.2.0, now rves */},
                             true};
 const Places places_of_specimens{{}, {}, true};
 const Places places_of_contacts{{"contact.csv"}, {}, false};
-const Places places_of_reports{{page_name}, {"figures", "tables"}, false};
+const Places places_of_reports{{page_name, film_name}, {"figures", "tables"}, false};
 
 FileList::FileList(const std::filesystem::path& its_folder)
   : folder(plain(its_folder))

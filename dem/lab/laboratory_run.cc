@@ -382,10 +382,21 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
       position[c] = snapshots.back().position[c][i];
     return position;
   };
+  const auto& shots = result.appearance.snapshots;
+  const auto loaded = std::max_element(shots.begin(), shots.end(), [](const Snapshot& one, const Snapshot& other) {
+    return std::abs(one.axial_stress) < std::abs(other.axial_stress);
+  });
+  const auto mean_stress_of = [&](const std::size_t i) {
+    if (loaded == shots.end() || loaded->stress[0].size() <= i)
+      return 0.0;
+    const auto& stress = loaded->stress; // xx, xy, xz, yy, yz, zz
+    return (stress[0][i] + stress[3][i] + stress[5][i]) / dim;
+  };
   auto& grains = result.appearance.grains_at_end;
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     grains.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)), position_of(i),
-                      specimen.grains.radius[i], fragment[i], specimen.groups.empty() ? 0 : specimen.groups[i] + 1});
+                      specimen.grains.radius[i], fragment[i], specimen.groups.empty() ? 0 : specimen.groups[i] + 1,
+                      mean_stress_of(i)});
   result.record.fragments = fragments_of(grains, dim);
   return result;
 }

@@ -1,4 +1,4 @@
-// Shows in the place of pictures what answers to the pointer: curves by Chart.js, and the specimen of a test by viewer.js.
+// Shows in the place of pictures what answers to the pointer: curves by Chart.js, specimens by specimens.js, samples by sample.js.
 // Without it, and on paper, the page has its pictures. All texts go through the canvas or textContent.
 "use strict";
 (() => {
@@ -179,10 +179,18 @@
     canvas.addEventListener("dblclick", () => plot.resetZoom());
     figure.buttons([["whole range", () => plot.resetZoom()]]);
     figure.hint("chart", "Drag a rectangle to enlarge it, double-click for the whole range; click an entry of the key to hide or show it.");
-    return () => plot.destroy();
+    return plot;
   }
 
-  for (const source of document.querySelectorAll("script.live-data")) {
+  // `feldspar report --film` opens the page with this fragment: the first specimens alone, and their film as text.
+  const sources = [...document.querySelectorAll("script.live-data")];
+  const filmed = location.hash === "#film" ? sources.find(one => JSON.parse(one.textContent).what === "specimens") : null;
+  if (filmed) {
+    document.body.replaceChildren(filmed.closest("figure"));
+    document.body.style.maxWidth = "58rem";
+  }
+
+  for (const source of filmed ? [filmed] : sources) {
     const frame = source.closest("figure");
     const image = frame.querySelector("img");
     const figure = {
@@ -212,7 +220,16 @@
       frame.insertBefore(figure.stage, frame.firstChild);
       bar.textContent = "";
       try {
-        end = data.what === "specimen" ? specimenView(figure, data, {element, theme, dark, digits}) : chart(figure, data);
+        if (data.what === "specimens") {
+          const view = specimensView(figure, data, chart, {element, theme, dark, digits, swift: filmed});
+          end = view.end;
+          figure.film = view.film;
+        } else if (data.what === "sample") {
+          end = sampleView(figure, data, {element, theme, digits});
+        } else {
+          const plot = chart(figure, data);
+          end = () => plot.destroy();
+        }
       } catch {
         // Without WebGL: the picture stays.
         figure.stage.remove();
@@ -244,8 +261,11 @@
     });
     // A figure is made when it comes near the screen: a long page opens at once.
     const reach = 800;
-    if (frame.getBoundingClientRect().top < innerHeight + reach) {
+    if (filmed || frame.getBoundingClientRect().top < innerHeight + reach) {
       begin();
+      const film = filmed && figure.film?.(32);
+      if (film)
+        element("pre", document.body, {id: "film", textContent: btoa(Array.from(film, one => String.fromCharCode(one)).join(""))});
       continue;
     }
     new IntersectionObserver((seen, observer) => {

@@ -1,7 +1,26 @@
 // Shows the grains and cracks of one test by WebGL 2: in the plane polygons and lines, in space spheres and discs. Grains
 // lie where the loading began, so that a crack stands where it broke. Picking draws numbers in place of colours.
+// `set` has what the reader chose, for all tests of a figure; `anew` draws all, `tell` takes the words on what was picked.
 "use strict";
-const specimenView = (figure, data, {element, theme, dark, digits}) => {
+const rgb = text => [1, 3, 5].map(k => parseInt(text.slice(k, k + 2), 16));
+const ofShare = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
+const bothWays = ["#2166ac", "#92c5de", "#f0f0f0", "#f4a582", "#b2182b"].map(rgb); // compression to tension
+const onRamp = (share, ramp = ofShare) => {
+  const place = Math.min(0.9999, Math.max(0, share)) * (ramp.length - 1);
+  const k = Math.floor(place);
+  return ramp[k].map((value, c) => value + (place - k) * (ramp[k + 1][c] - value));
+};
+const singleGrain = [240, 226, 150];
+const specimenTones = dark => {
+  const isDark = dark.matches;
+  return {
+    isDark,
+    plain: isDark ? [92, 99, 108] : [206, 209, 213],
+    kindTones: [[213, 94, 0], isDark ? [74, 168, 224] : [0, 114, 178]],
+    pieceTones: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"].map(rgb),
+  };
+};
+const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, {element, theme, dark, digits, swift}) => {
   const begun = performance.now();
   const inSpace = data.space;
 
@@ -19,15 +38,12 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     uniform uint first, chosen;
     uniform bool picking;
     flat out vec3 tone;
-    vec3 colour(int n) {
+    vec4 placed(vec3 at, int n) {
       uint id = first + uint(n) + 1u;
-      if (picking)
-        return vec3(id & 255u, (id >> 8) & 255u, id >> 16) / 255.0;
-      return id == chosen ? vec3(1.0, 0.88, 0.0) : texelFetch(tones, ivec2(n % 2048, n / 2048), 0).rgb;
-    }
-    vec4 placed(vec3 at) {
+      vec4 own = texelFetch(tones, ivec2(n % 2048, n / 2048), 0); // without cover: hidden
+      tone = picking ? vec3(id & 255u, (id >> 8) & 255u, id >> 16) / 255.0 : id == chosen ? vec3(1.0, 0.88, 0.0) : own.rgb;
       vec3 seen = turn * at;
-      return dot(cut.xyz, at) > cut.w ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(seen.xy * zoom + pan, -seen.z * depth, 1.0);
+      return own.a == 0.0 || dot(cut.xyz, at) > cut.w ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(seen.xy * zoom + pan, -seen.z * depth, 1.0);
     }`;
   const pointVertex = vertexHead + `
     layout(location = 0) in vec4 place; // and size, all as shares
@@ -38,8 +54,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     flat out float size, drawn; // radius, or half the length, and the radius of the point [px]
     flat out float thick, nearness;
     void main() {
-      tone = colour(gl_VertexID);
-      gl_Position = placed(place.xyz - middle);
+      gl_Position = placed(place.xyz - middle, gl_VertexID);
       nearness = gl_Position.z;
       axis = turn * (form == 2 ? vec3(-along.y, along.x, 0.0) : along.xyz);
       if (form == 1)
@@ -55,8 +70,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     out float rim;
     void main() {
       rim = grain < 0.0 ? 0.0 : 1.0;
-      tone = colour(int(abs(grain)) - 1);
-      gl_Position = placed(vec3(corner, 0.0) - middle);
+      gl_Position = placed(vec3(corner, 0.0) - middle, int(abs(grain)) - 1);
     }`;
   const fragmentHead = `#version 300 es
     precision highp float;
@@ -104,15 +118,17 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       show(mix(1.0, 0.62, clamp((rim - 1.0) / max(fwidth(rim), 1e-6) + 1.2, 0.0, 1.0)), 1.0);
     }`;
 
-  const box = element("div", figure.stage, {className: "specimen"});
-  const canvas = element("canvas", box, {tabIndex: 0});
-  const gl = canvas.getContext("webgl2", {antialias: !inSpace}); // four samples a pixel are slow where a processor draws
+  const box = element("div", parent, {className: "specimen"});
+  const header = element("div", box, {className: "header"});
+  const frame = element("div", box, {className: "view"});
+  const canvas = element("canvas", frame, {tabIndex: 0});
+  const gl = canvas.getContext("webgl2", {antialias: !inSpace && !swift}); // four samples a pixel are slow where a processor draws
   if (!gl)
     throw new Error("no WebGL 2");
   canvas.setAttribute("role", "application");
   canvas.setAttribute(
     "aria-label",
-    figure.alternative + " Arrow keys turn or move, plus and minus enlarge, 0 shows all, Enter reads what is in the middle.");
+    alternative + " Arrow keys turn or move, plus and minus enlarge, 0 shows all, Enter reads what is in the middle.");
 
   const program = (vertex, fragment) => {
     const made = gl.createProgram();
@@ -137,7 +153,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     new Kind((Uint8Array.fromBase64?.(text) || Uint8Array.from(atob(text), one => one.charCodeAt(0))).buffer);
   const shares = 65535;
   const grains = {place: decoded(data.grains.place, Uint16Array), moved: decoded(data.grains.moved, Int16Array),
-                  fragment: decoded(data.grains.fragment, Uint16Array), tone: decoded(data.grains.tone, Uint8Array)};
+                  stress: decoded(data.grains.stress, Int16Array), fragment: decoded(data.grains.fragment, Uint16Array), tone: decoded(data.grains.tone, Uint8Array)};
   const cracks = {place: decoded(data.cracks.place, Uint16Array), normal: decoded(data.cracks.normal, Int8Array),
                   row: decoded(data.cracks.row, Uint16Array), joint: decoded(data.cracks.joint, Uint32Array)};
   const nGrains = grains.fragment.length;
@@ -238,65 +254,63 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const drawnFlaws = points(flaws.place, flaws.along);
 
   // Colours.
-  const rgb = text => [1, 3, 5].map(k => parseInt(text.slice(k, k + 2), 16));
-  const ramp = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
-  const onRamp = share => {
-    const place = Math.min(0.9999, Math.max(0, share)) * (ramp.length - 1);
-    const k = Math.floor(place);
-    return ramp[k].map((value, c) => value + (place - k) * (ramp[k + 1][c] - value));
-  };
-  const pieceTones = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"].map(rgb);
   const movedBy = k => (Math.hypot(grains.moved[3 * k], grains.moved[3 * k + 1], grains.moved[3 * k + 2]) * data.grains.most_moved) / 32767; // [mm]
-  // Single grains that flew off would leave one colour for all others.
-  let mostMoved = 0;
-  const typicalMotion = () => (mostMoved ||= Float32Array.from({length: nGrains}, (none, k) => movedBy(k)).sort()[Math.floor(0.98 * (nGrains - 1))] || 1);
+  // Single grains that flew off, or are pressed by a platen, would leave one colour for all others.
+  const quantile = values => {
+    let found = 0;
+    return () => (found ||= values().sort()[Math.floor(0.98 * (nGrains - 1))] || 1);
+  };
+  const typicalMotion = quantile(() => Float32Array.from({length: nGrains}, (none, k) => movedBy(k)));
   const sizes = new Map();
   for (const piece of grains.fragment)
     sizes.set(piece, (sizes.get(piece) || 0) + 1);
-  const isDark = dark.matches;
-  const plain = isDark ? [92, 99, 108] : [206, 209, 213];
-  const kindTones = [[213, 94, 0], isDark ? [74, 168, 224] : [0, 114, 178]];
+  const {isDark, plain, kindTones, pieceTones} = specimenTones(dark);
+  const stressOf = k => (grains.stress[k] * data.grains.most_stress) / 32767; // [MPa]
+  const typicalStress = quantile(() => Float32Array.from(grains.stress, (none, k) => Math.abs(stressOf(k))));
   const grainColours = {
     plain: () => plain,
     "mineral grain": k => [...grains.tone.subarray(3 * k, 3 * k + 3)].map(value => (isDark ? 0.55 : 1) * value),
     fragment: k => {
       const piece = grains.fragment[k];
-      return piece === 0 ? plain : sizes.get(piece) === 1 ? [240, 226, 150] : pieceTones[piece % pieceTones.length];
+      return piece === 0 ? plain : sizes.get(piece) === 1 ? singleGrain : pieceTones[piece % pieceTones.length];
     },
     displacement: k => onRamp(movedBy(k) / typicalMotion()),
+    stress: k => onRamp(0.5 + (0.5 * stressOf(k)) / typicalStress(), bothWays),
   };
+  const isShear = k => cracks.normal[4 * k + 3] === 1;
+  const ofKind = k => kindTones[cracks.normal[4 * k + 3]];
   const crackColours = {
-    kind: k => kindTones[cracks.normal[4 * k + 3]],
+    kind: ofKind,
     strain: k => onRamp(cracks.row[k] / (data.rows.length - 1)),
+    tension: k => (isShear(k) ? null : ofKind(k)),
+    shear: k => (isShear(k) ? ofKind(k) : null),
   };
   const colourAll = (shape, n, colourOf) => {
     const rows = Math.max(1, Math.ceil(n / columns));
     const tones = new Uint8Array(4 * columns * rows);
-    for (let k = 0; k < n; ++k)
-      tones.set(colourOf(k), 4 * k);
+    for (let k = 0; k < n; ++k) {
+      const tone = colourOf(k);
+      if (tone)
+        tones.set([...tone, 255], 4 * k);
+    }
     gl.bindTexture(gl.TEXTURE_2D, shape.tones);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, columns, rows, 0, gl.RGBA, gl.UNSIGNED_BYTE, tones);
   };
 
-  // What the reader set, kept while the figure is drawn anew.
   let highest = 0;
   data.rows.forEach((row, k) => {
     if (row[1] > data.rows[highest][1])
       highest = k;
   });
-  const set = (figure.kept ||= {
-    row: inSpace ? highest : data.rows.length - 1, // at the end of a test, cracks hide a body in space
-    azimuth: inSpace ? -0.45 : 0,
-    elevation: inSpace ? 0.3 : Math.PI / 2,
-    zoom: 1,
-    pan: [0, 0],
-    cut: inSpace ? "y" : "whole",
-    grains: grains.tone.length ? "mineral grain" : "plain",
-    cracks: "kind",
-    chosen: 0,
-  });
+  // Way of the strain up to each row, as a share of that up to the peak: it grows where the strain goes back, too.
+  const way = data.rows.map(() => 0);
+  for (let k = 1; k < way.length; ++k)
+    way[k] = way[k - 1] + Math.abs(data.rows[k][0] - data.rows[k - 1][0]);
+  const whole_way = way[highest] || way.at(-1) || 1;
+  const course = way.map(value => value / whole_way);
+  let shown = data.rows.length - 1, chosen = 0;
 
   // Limits, in shares of the box.
   const high = [0, 0, 0];
@@ -313,11 +327,11 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const unit = () => { // CSS pixels of the whole box at the present size
     const axes = turned();
     const half = axes.slice(0, 2).map(axis => axis.reduce((sum, value, c) => sum + Math.abs(value) * middle[c], rim));
-    return set.zoom * Math.min((canvas.clientWidth - 16) / 2 / half[0], (canvas.clientHeight - 56) / 2 / half[1]);
+    return set.zoom * Math.min((canvas.clientWidth - 8) / 2 / half[0], (canvas.clientHeight - 8) / 2 / half[1]);
   };
   const nBroken = () => {
     let n = nCracks;
-    while (n > 0 && cracks.row[n - 1] > set.row)
+    while (n > 0 && cracks.row[n - 1] > shown)
       --n;
     return n;
   };
@@ -349,7 +363,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       gl.uniform1f(one.at.depth, 0.99 / reach);
       gl.uniform1i(one.at.form, form);
       gl.uniform1ui(one.at.first, first);
-      gl.uniform1ui(one.at.chosen, set.chosen);
+      gl.uniform1ui(one.at.chosen, chosen);
       gl.uniform1i(one.at.picking, picking);
       gl.bindTexture(gl.TEXTURE_2D, shape.tones);
       gl.bindVertexArray(shape.parts);
@@ -385,24 +399,20 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   };
 
   // What stands around the canvas.
-  const scale = element("div", box, {className: "scale"});
-  const arrows = element("canvas", box, {className: "arrows"});
-  const key = element("div", box, {className: "key"});
-  const curve = element("canvas", box, {className: "course"});
-  const controls = element("div", box, {className: "controls"});
-  const player = element("button", controls, {type: "button", textContent: "▶ play"});
-  const slider = element("input", controls, {type: "range", min: 0, max: data.rows.length - 1, step: 1});
-  slider.value = set.row;
-  slider.setAttribute("aria-label", "How far the test has gone");
+  const title = element("span", header, {className: "entry"});
+  element("span", title, {className: "chip"}).style.background = tone;
+  title.append(data.title);
+  const scale = element("span", header, {className: "scale"});
+  const arrows = inSpace ? element("canvas", frame, {className: "arrows"}) : null;
   const output = element("output", box);
-  const reading = element("p", box, {className: "reading"});
-  reading.setAttribute("aria-live", "polite");
 
   const describeAxes = () => {
     const size = unit() / data.span; // [px/mm]
-    const length = [100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1].find(one => one * size <= 110) || 0.05;
+    const length = [100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1].find(one => one * size <= 80) || 0.05;
     scale.style.width = `${length * size}px`;
     scale.textContent = `${length} mm`;
+    if (!arrows)
+      return;
     const pen = arrows.getContext("2d");
     const pixels = devicePixelRatio || 1;
     arrows.width = arrows.height = 64 * pixels;
@@ -411,7 +421,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
     const axes = turned();
-    for (const c of inSpace ? [0, 1, 2] : [0, 1]) {
+    for (const c of [0, 1, 2]) {
       const [x, y] = [axes[0][c], -axes[1][c]];
       if (Math.hypot(x, y) < 0.1)
         continue;
@@ -422,54 +432,6 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       pen.fillText("xyz"[c], 32 + 26 * x, 36 + 26 * y);
     }
   };
-  const describeCurve = () => {
-    const pen = curve.getContext("2d");
-    const pixels = devicePixelRatio || 1;
-    const [width, height, edge] = [curve.clientWidth, curve.clientHeight, 6];
-    curve.width = width * pixels;
-    curve.height = height * pixels;
-    pen.scale(pixels, pixels);
-    const last = data.rows.length - 1;
-    // Over the rows, as the slider is.
-    const lowest = Math.min(0, ...data.rows.map(row => row[1]));
-    const at = k => [8 + ((width - 16) * k) / last, height - edge - ((height - 2 * edge) * (data.rows[k][1] - lowest)) / (data.rows[highest][1] - lowest || 1)];
-    pen.strokeStyle = theme("--text");
-    pen.lineWidth = 1.5;
-    pen.beginPath();
-    data.rows.forEach((row, k) => row[1] === null || pen.lineTo(...at(k)));
-    pen.stroke();
-    pen.fillStyle = theme("--bad");
-    pen.beginPath();
-    pen.arc(...at(set.row), 4.5, 0, 2 * Math.PI);
-    pen.fill();
-  };
-  const css = colour => `rgb(${colour.map(Math.round).join(" ")})`;
-  const describeKey = () => {
-    key.textContent = "";
-    const chip = (background, text) => {
-      const entry = element("span", key, {className: "entry"});
-      element("span", entry, {className: "chip"}).style.background = background;
-      entry.append(text);
-    };
-    const bar = (from, to) => {
-      const entry = element("span", key, {className: "entry"});
-      entry.append(from + " ");
-      element("span", entry, {className: "ramp"}).style.background = `linear-gradient(to right, ${ramp.map(css).join(", ")})`;
-      entry.append(" " + to);
-    };
-    if (set.cracks === "kind") {
-      chip(css(kindTones[0]), "tension crack");
-      chip(css(kindTones[1]), "shear crack");
-    } else if (set.cracks === "strain")
-      bar(`cracks: ${digits(data.rows[0][0])}`, `${digits(data.rows.at(-1)[0])} ${data.strain}`);
-    if (set.grains === "displacement")
-      bar("grains: 0", `${digits(typicalMotion())} mm, at the end`);
-    else if (set.grains === "fragment") {
-      chip(css(plain), "largest piece");
-      chip(css([240, 226, 150]), "single grains");
-      chip(css(pieceTones[1]), "other fragments, at the end");
-    }
-  };
   const draw = () => {
     const pixels = devicePixelRatio || 1;
     const [width, height] = [Math.round(canvas.clientWidth * pixels), Math.round(canvas.clientHeight * pixels)];
@@ -477,34 +439,31 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       Object.assign(canvas, {width, height});
     paint(false);
     describeAxes();
-    describeCurve();
-    const row = data.rows[set.row];
-    output.textContent =
-      `${data.strain}: ${digits(row[0])}; ${data.stress}: ${digits(row[1])}; broken segments: ${row[2]} in tension, ${row[3]} in shear`;
+    const row = data.rows[shown];
+    const short = value => digits(value && Number(value.toPrecision(3)));
+    output.textContent = `${short(row[1])} MPa at ${short(row[0])}·10⁻³; broken: ${row[2]} tension, ${row[3]} shear`;
   };
   const colour = () => {
     if (set.grains !== "hidden")
       colourAll(drawnGrains, nGrains, grainColours[set.grains]);
     if (set.cracks !== "hidden")
       colourAll(drawnCracks, nCracks, crackColours[set.cracks]);
-    describeKey();
   };
 
   const millimetres = (place, k) => `(${(inSpace ? [0, 1, 2] : [0, 1]).map(axis => digits(coordinate(place, k, axis))).join(", ")}) mm`;
   const read = id => {
-    set.chosen = id;
+    chosen = id;
     const k = id > nGrains ? id - nGrains - 1 : id - 1;
     if (id === 0)
-      reading.textContent = "";
+      tell("");
     else if (id <= nGrains)
-      reading.textContent =
-        `Grain ${k * data.grains.every + 1} at ${millimetres(grains.place, k)}: radius ${digits((grains.place[4 * k + 3] / shares) * data.radius)} mm, ` +
+      tell(`Grain ${k * data.grains.every + 1} at ${millimetres(grains.place, k)}: radius ${digits((grains.place[4 * k + 3] / shares) * data.radius)} mm, ` +
         `displacement at the end ${digits(movedBy(k))} mm, ` +
-        (grains.fragment[k] ? `fragment ${grains.fragment[k]} of ${sizes.get(grains.fragment[k])} grains.` : "in the largest piece.");
+        (grains.stress.length ? `mean stress at the highest load ${digits(stressOf(k))} MPa, ` : "") +
+        (grains.fragment[k] ? `fragment ${grains.fragment[k]} of ${sizes.get(grains.fragment[k])} grains.` : "in the largest piece."));
     else
-      reading.textContent =
-        `Crack ${k * data.cracks.every + 1}, ${cracks.normal[4 * k + 3] ? "shear" : "tension"}, of joint ${cracks.joint[k]} at ${millimetres(cracks.place, k)}: ` +
-        `size ${digits((cracks.place[4 * k + 3] / shares) * data.size)} mm, ${data.strain} ${digits(data.rows[cracks.row[k]][0])}.`;
+      tell(`Crack ${k * data.cracks.every + 1}, ${isShear(k) ? "shear" : "tension"}, of joint ${cracks.joint[k]} at ${millimetres(cracks.place, k)}: ` +
+        `size ${digits((cracks.place[4 * k + 3] / shares) * data.size)} mm, ${data.strain} ${digits(data.rows[cracks.row[k]][0])}.`);
     draw();
   };
   const pick = (x, y) => {
@@ -536,11 +495,11 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     const most = (set.zoom / unit()) * Math.min(1024, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]) / (devicePixelRatio || 1) / 2.2;
     set.zoom = Math.min(most / Math.max(rim, data.size / data.span), Math.max(0.5, set.zoom * factor));
     set.pan = set.pan.map(value => (value * set.zoom) / before);
-    draw();
+    anew();
   };
   const view = (azimuth, elevation) => {
     Object.assign(set, {azimuth, elevation, zoom: 1, pan: [0, 0]});
-    draw();
+    anew();
   };
   const whole = () => view(inSpace ? -0.45 : 0, inSpace ? 0.3 : Math.PI / 2);
   let held = null;
@@ -558,12 +517,12 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       rotate(right / 150, down / 150);
     else
       move(right, -down);
-    requestAnimationFrame(draw);
+    requestAnimationFrame(anew);
   });
   canvas.addEventListener("pointerup", event => {
     if (held && held.far < 4) {
-      const frame = canvas.getBoundingClientRect();
-      pick(event.clientX - frame.left, event.clientY - frame.top);
+      const place = canvas.getBoundingClientRect();
+      pick(event.clientX - place.left, event.clientY - place.top);
     }
     held = null;
   });
@@ -591,81 +550,19 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     else
       return;
     event.preventDefault();
-    draw();
+    anew();
   });
-
-  let playing = 0;
-  const go = row => {
-    set.row = row;
-    slider.value = row;
-    draw();
-  };
-  const stop = () => {
-    cancelAnimationFrame(playing);
-    playing = 0;
-    player.textContent = "▶ play";
-  };
-  player.onclick = () => {
-    if (playing)
-      return stop();
-    const last = data.rows.length - 1, seconds = 8;
-    const from = set.row === last ? 0 : set.row;
-    let start;
-    const next = now => {
-      const row = Math.min(last, from + Math.floor(((now - (start ??= now)) * last) / seconds / 1000));
-      playing = row < last ? requestAnimationFrame(next) : 0;
-      go(row);
-      if (!playing)
-        stop();
-    };
-    player.textContent = "❚❚ pause";
-    playing = requestAnimationFrame(next);
-  };
-  slider.addEventListener("input", () => {
-    stop();
-    go(Number(slider.value));
-  });
-  curve.addEventListener("click", event => {
-    stop();
-    const share = (event.clientX - curve.getBoundingClientRect().left - 8) / (curve.clientWidth - 16);
-    go(Math.round(Math.min(1, Math.max(0, share)) * (data.rows.length - 1)));
-  });
-
-  const choice = (name, all) => {
-    const label = element("label", figure.bar, {textContent: name + " "});
-    const select = element("select", label);
-    for (const [value, text] of all)
-      element("option", select, {value, textContent: text});
-    select.value = set[name];
-    select.onchange = () => {
-      set[name] = select.value;
-      colour();
-      draw();
-    };
-  };
-  if (inSpace) {
-    figure.buttons([["XZ", () => view(0, 0)], ["YZ", () => view(Math.PI / 2, 0)], ["XY", () => view(0, Math.PI / 2)]]);
-    choice("cut", [["whole", "none"], ["x", "in half, across x"], ["y", "in half, across y"], ["z", "in half, across z"]]);
-  }
-  choice("grains", [...(grains.tone.length ? [["mineral grain", "by mineral grain"]] : []), ["plain", "one colour"],
-                    ["fragment", "by fragment"], ["displacement", "by displacement"], ["hidden", "hidden"]]);
-  choice("cracks", [["kind", "by kind"], ["strain", "by strain"], ["hidden", "hidden"]]);
-  figure.buttons([["+", () => enlarge(1.25)], ["−", () => enlarge(0.8)], ["whole", whole]]);
-  figure.hint("specimen", (inSpace ? "Drag to turn, with Shift to move" : "Drag to move") +
-    "; Ctrl and the wheel enlarge; click a grain or a crack for its numbers. Grains lie where they were when the loading began, cracks where they broke." +
-    (data.grains.every > 1 ? ` One of ${data.grains.every} grains is shown.` : "") + (data.cracks.every > 1 ? ` One of ${data.cracks.every} cracks is shown.` : ""));
 
   colourAll(drawnFlaws, pieces.length, () => (isDark ? [230, 233, 236] : [27, 31, 36]));
   colour();
   // As wide as there is room for, as high as the specimen asks for.
-  canvas.style.aspectRatio = `${Math.max(0.6, Math.min(2, (high[0] + 2 * rim) / (high[inSpace ? 2 : 1] + 2 * rim)))}`;
+  canvas.style.aspectRatio = `${Math.max(0.3, Math.min(2, (high[0] + 2 * rim) / (high[inSpace ? 2 : 1] + 2 * rim)))}`;
   const watch = new ResizeObserver(draw);
   watch.observe(canvas);
   draw();
   if (fans)
     canvas.dataset.faces = fans.nFaces;
   canvas.dataset.firstFrame = Math.round(performance.now() - begun); // [ms]
-  const lose = () => figure.printed();
   canvas.addEventListener("webglcontextlost", lose);
   // For tests: how many grains and cracks have a pixel.
   canvas.countSeen = () => {
@@ -680,10 +577,22 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     const [x, y] = turned().map(axis => axis.reduce((sum, value, c) => sum + value * at[c], 0) * unit());
     return [canvas.clientWidth / 2 + set.pan[0] + x, canvas.clientHeight / 2 - set.pan[1] - y];
   };
-  return () => {
-    stop();
-    watch.disconnect();
-    canvas.removeEventListener("webglcontextlost", lose);
-    gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return {
+    draw, colour, view, whole, enlarge, course, typicalMotion, typicalStress,
+    hasStress: grains.stress.length > 0,
+    hasMinerals: grains.tone.length > 0,
+    // Shows the last row up to a share of the strain at the peak. Returns the row.
+    go(share) {
+      shown = 0;
+      while (shown + 1 < course.length && course[shown + 1] <= share + 1e-9)
+        ++shown;
+      draw();
+      return data.rows[shown];
+    },
+    end() {
+      watch.disconnect();
+      canvas.removeEventListener("webglcontextlost", lose);
+      gl.getExtension("WEBGL_lose_context")?.loseContext();
+    },
   };
 };

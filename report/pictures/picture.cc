@@ -1,6 +1,7 @@
 #include "report/pictures/picture.h"
 
 #include "base/quoted.h"
+#include "base/system/program.h"
 #include "base/whole_file.h"
 #include "laboratory/named_entries.h"
 #include "report/chart/gnuplot_writer.h"
@@ -11,73 +12,16 @@
 
 #include <array>
 #include <atomic>
-#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <utility>
-
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace feldspar
 {
 namespace
 {
-enum class End
-{
-  done,
-  failed, ///< or there is no such program
-  hung,
-  called_off
-};
-
-/// Runs a program in a folder, with a process group of its own so that what it starts ends with it.
-End run(std::vector<std::string> command, const std::filesystem::path& folder, const std::chrono::milliseconds longest,
-        const std::function<bool()>& is_over)
-{
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  std::vector<char*> arguments;
-  for (std::string& word : command)
-    arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  const bool started = posix_spawnp(&child, arguments.front(), &actions, &attributes, arguments.data(), environ) == 0;
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (!started)
-    return End::failed;
-
-  const auto deadline = std::chrono::steady_clock::now() + longest;
-  constexpr std::chrono::milliseconds between_looks(5);
-  int status = -1;
-  pid_t ended = 0;
-  while ((ended = waitpid(child, &status, WNOHANG)) == 0)
-    {
-      const bool is_late = std::chrono::steady_clock::now() > deadline;
-      if (is_late || is_over())
-        {
-          kill(-child, SIGKILL);
-          waitpid(child, &status, 0);
-          return is_late ? End::hung : End::called_off;
-        }
-      std::this_thread::sleep_for(between_looks);
-    }
-  return ended == child && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? End::done : End::failed;
-}
-
 /// File endings with the terminals that make them. 1 px is 1/40 cm on paper: 640 px are a page's width.
 std::vector<std::pair<std::string, std::string>> outputs(const Picture& picture)
 {
@@ -149,19 +93,19 @@ std::string draw_one(const Picture& picture, const std::filesystem::path& folder
   // import a vtk.py that lies in the folder; gnuplot without the user's own settings (-d), which are commands too.
   for (const auto& [ending, terminal] : outputs(picture))
     make_way_for(folder / (picture.name + ending));
-  const End end = run(by_vtk ? std::vector<std::string>{"/usr/bin/python3", "-I", script}
-                             : std::vector<std::string>{"gnuplot", "-d", script},
-                      folder, longest, is_over);
-  if (end == End::called_off)
+  const ProgramEnd end = run_program(by_vtk ? std::vector<std::string>{"/usr/bin/python3", "-I", script}
+                                            : std::vector<std::string>{"gnuplot", "-d", script},
+                                     folder, longest, is_over);
+  if (end == ProgramEnd::called_off)
     return called_off();
-  if (end == End::hung)
+  if (end == ProgramEnd::hung)
     {
       has_hung = true;
       return fmt::format("{} was not drawn: {} did not end within {} s", picture.name, by_vtk ? "VTK" : "gnuplot",
                          std::chrono::duration<double>(longest).count());
     }
   for (const auto& [ending, terminal] : outputs(picture))
-    if (end == End::failed || !std::filesystem::exists(folder / (picture.name + ending)))
+    if (end == ProgramEnd::failed || !std::filesystem::exists(folder / (picture.name + ending)))
       return fmt::format("{} was not drawn: {} installed?", picture.name + ending,
                          by_vtk ? "are VTK and Xvfb (packages python3-vtk9 and xvfb)"
                                 : "is gnuplot (package gnuplot-nox)");

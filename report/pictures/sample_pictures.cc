@@ -1,6 +1,7 @@
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
 #include "report/pictures/rves.h"
+#include "report/pictures/sample_data.h"
 #include "report/pictures/sample_view.h"
 
 #include <fmt/format.h>
@@ -194,6 +195,10 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
      .height = inner_height + 160,
      .raster = pieces.size() > 3000,
      .vector = pieces.size() <= 3000,
-     .panels = {std::move(chart)}}};
+     .panels = {std::move(chart)},
+     .story = sample_data(test, view, pieces, scale),
+     .live_caption = fmt::format("{}, seed {}: the cells of the sample at the end, coloured by one of their fields{}",
+                                 title, test.record.seed,
+                                 test.appearance.rves.empty() ? "" : "; letters: the representative volumes below")}};
 }
 } // namespace feldspar

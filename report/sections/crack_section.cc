@@ -2,15 +2,43 @@
 
 #include "base/append.h"
 #include "report/pictures/figures.h"
+#include "report/pictures/maps/specimen_data.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace feldspar
 {
+namespace
+{
+/// Tests that the viewer shows side by side, and the place of the map that stands for all on paper: that with most cracks.
+struct ShownTogether
+{
+  std::vector<TitledTest> tests;
+  std::size_t map = 0;
+  std::size_t n_cracks = 0;
+};
+
+/// Puts the viewer in the place of one of the maps, and returns this map alone.
+std::vector<Picture> taken_for_viewer(const ShownTogether& together, std::vector<Picture>& maps)
+{
+  std::string story = specimen_data(together.tests);
+  if (story.empty())
+    return {};
+  Picture picture = std::move(maps[together.map]);
+  maps.erase(maps.begin() + std::ptrdiff_t(together.map));
+  picture.story = std::move(story);
+  picture.live_caption = together.tests.size() > 1
+                           ? "Segments broken up to the same share of each test's strain at its peak"
+                           : "Segments broken up to the place of the slider";
+  return {std::move(picture)};
+}
+} // namespace
+
 PageSection crack_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"cracks", "Cracks", "Cracks", {}};
@@ -28,10 +56,21 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
       PageBlock block = findings.heading_of(n);
       std::vector<Picture> maps;
       std::vector<Picture> fragments;
+      ShownTogether together;
       for (const auto& group : shown(groups_of(series)))
         if (const auto* test = typical(group))
           {
             const std::string title = findings.titled(group.title(), series);
+            const std::size_t n_cracks = test->record.cracks.size();
+            if (!test->appearance.grains_at_end.empty() && n_cracks > 0 && together.tests.size() < most_specimens)
+              {
+                together.tests.push_back({test, fmt::format("{}, seed {}", group.title(), test->record.seed)});
+                if (n_cracks > together.n_cracks)
+                  {
+                    together.map = maps.size();
+                    together.n_cracks = n_cracks;
+                  }
+              }
             append(maps, pictures_of(crack_figures, *test, title));
             append(fragments, pictures_of(fragment_figures, *test, title));
           }
@@ -45,7 +84,8 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
             ? "No crack map: there are no cracks, or no test with a peak, in this result folder."
             : "No crack map: the positions of the grains, or a test with a peak, are missing in this result folder.");
       const SeriesAmong among{findings.all, n, findings.envelopes[n], findings.reference};
-      block.pictures = place(pictures_of(direction_figures, among));
+      block.pictures = place(taken_for_viewer(together, maps));
+      append(block.pictures, place(pictures_of(direction_figures, among)));
       append(block.pictures, place(pictures_of(fragment_size_figures, among)));
       PageBlock of_tests;
       of_tests.folded = findings.titled("Cracks and fragments of each test", series);

@@ -44,7 +44,7 @@ constexpr Column<Crack> crack_columns[] = {column<Crack, &Crack::joint>("joint")
                                            column<Crack, &Crack::on_smooth_joint>("on_smooth_joint", "", added_later)};
 
 /// `group`: the name of the column of the groups, which outlives the columns.
-std::array<Column<GrainPicture>, 9> grain_columns(const std::string_view group)
+std::array<Column<GrainPicture>, 10> grain_columns(const std::string_view group)
 {
   return {column<GrainPicture, &GrainPicture::start, 0>("start_x_m"),
           column<GrainPicture, &GrainPicture::start, 1>("start_y_m"),
@@ -54,7 +54,8 @@ std::array<Column<GrainPicture>, 9> grain_columns(const std::string_view group)
           column<GrainPicture, &GrainPicture::position, 2>("z_m"),
           column<GrainPicture, &GrainPicture::radius>("radius_m"),
           column<GrainPicture, &GrainPicture::fragment>("fragment"),
-          column<GrainPicture, &GrainPicture::mineral>(group, "", added_later)};
+          column<GrainPicture, &GrainPicture::mineral>(group, "", added_later),
+          column<GrainPicture, &GrainPicture::mean_stress>("mean_stress_Pa", "", added_later)};
 }
 
 const char* kind_name(const CrackKind kind) { return kind == CrackKind::tension ? "tension" : "shear"; }

@@ -24,6 +24,7 @@ inline constexpr const char* reference = "reference.json";
 inline constexpr const char* figures = "figures";
 inline constexpr const char* tables = "tables";
 inline constexpr const char* page = "report.html";
+inline constexpr const char* film = "film.webp";
 } // namespace result_file
 
 /// Writes what a later report needs: summary.json, tests.csv, curves/, cracks.csv, steps.csv of samples, grains/, points/. The fields of finite

@@ -46,22 +46,60 @@ addEventListener("load", async () => {
     claim("as printed", !frame.classList.contains("live") && frame.querySelector("img").checkVisibility());
     frame.querySelector(".again").click();
     claim("interactive again", frame.classList.contains("live"));
-    const source = [...document.querySelectorAll("script.live-data")].find(one => JSON.parse(one.textContent).what === "specimen");
+    const source = [...document.querySelectorAll("script.live-data")].find(one => JSON.parse(one.textContent).what === "specimens");
     const specimen = source.closest("figure");
-    const data = JSON.parse(source.textContent);
+    const tests = JSON.parse(source.textContent).tests;
+    const data = tests[0];
     specimen.scrollIntoView();
     await pause();
-    const picture = specimen.querySelector("canvas"), slider = specimen.querySelector("input[type=range]");
-    const words = specimen.querySelector("output"), reading = specimen.querySelector(".reading");
+    const pictures = [...specimen.querySelectorAll(".view canvas")], slider = specimen.querySelector("input[type=range]");
+    const [picture] = pictures;
+    const words = specimen.querySelector(".specimen output"), reading = specimen.querySelector(".reading");
+    claim(`${tests.length} tests side by side`, pictures.length === tests.length &&
+      new Set(pictures.map(one => one.getBoundingClientRect().top)).size === 1);
     const all = [atob(data.grains.fragment).length / 2, atob(data.cracks.row).length / 2];
     const whole_picture = picture.countSeen();
     claim("grains", whole_picture[0] === all[0]);
     // Segments of one joint lie side by side, some of them on others.
     claim("cracks", all[1] > 0 && whole_picture[1] > 0.7 * all[1] && whole_picture[1] <= all[1]);
+    // Each pane has the shape of its specimen, which fills it.
+    const filled = pictures.map(one => {
+      const pen = Object.assign(document.createElement("canvas"), {width: one.width, height: one.height}).getContext("2d");
+      one.countSeen();
+      specimen.querySelector("input[type=range]").dispatchEvent(new Event("input")); // draws
+      pen.drawImage(one, 0, 0);
+      return pen.getImageData(0, 0, one.width, one.height).data.filter((value, k) => k % 4 === 3 && value > 0).length / (one.width * one.height);
+    });
+    claim("filled", filled.every(share => share > 0.7));
+    // The mark on each curve is where the map of its test is.
+    const curves = Chart.getChart(specimen.querySelector(".chart canvas"));
+    const isAt = rowOf => tests.every((test, k) => {
+      const [mark] = curves.data.datasets[tests.length + k].data;
+      return mark.x === rowOf(test)[0] && mark.y === rowOf(test)[1];
+    });
+    claim("marks at the end", isAt(test => test.rows.at(-1)));
     const last = words.textContent;
     slider.value = 0;
     slider.dispatchEvent(new Event("input"));
-    claim("slider", words.textContent !== last && /: 0 in tension/.test(words.textContent) && picture.countSeen()[1] === 0);
+    claim("slider", words.textContent !== last && /: 0 tension/.test(words.textContent) && pictures.every(one => one.countSeen()[1] === 0));
+    claim("marks at the beginning", isAt(test => test.rows[0]));
+    slider.value = 1000;
+    slider.dispatchEvent(new Event("input"));
+    const choose = (name, value) => {
+      const select = [...specimen.querySelectorAll("label")].find(one => one.textContent.startsWith(name)).querySelector("select");
+      select.value = value;
+      select.dispatchEvent(new Event("change"));
+    };
+    const nShear = atob(data.cracks.normal).split("").filter((one, k) => k % 4 === 3 && one === "\u0001").length;
+    choose("cracks", "shear");
+    const shear = picture.countSeen()[1];
+    choose("cracks", "tension");
+    const tension = picture.countSeen()[1];
+    claim("filter", shear <= nShear && shear >= 0.7 * nShear && tension <= all[1] - nShear && tension >= 0.7 * (all[1] - nShear));
+    const plain = picture.toDataURL();
+    choose("grains", "stress");
+    claim("stress", picture.toDataURL() !== plain && /stress .* MPa/.test(specimen.querySelector(".curves > .key:not(:has(button))").textContent));
+    choose("grains", "plain");
     const place = new Uint16Array(Uint8Array.from(atob(data.grains.place), one => one.charCodeAt(0)).buffer);
     const spot = picture.placeOf(7);
     const frame_of_picture = picture.getBoundingClientRect();

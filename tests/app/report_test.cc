@@ -743,7 +743,7 @@ public:
     const TemporaryFolder profile; // with its crash reports and caches
     const std::string out = (profile.path() / "out").string();
     const std::string command = fmt::format(
-      "HOME='{0}' timeout 60 chromium --headless=new --no-sandbox --disable-gpu "
+      "HOME='{0}' timeout 120 chromium --headless=new --no-sandbox --disable-gpu "
       "--enable-unsafe-swiftshader --disable-dev-shm-usage "
       "--user-data-dir='{0}/profile' --hide-scrollbars --enable-logging=stderr {1} 'file://{2}' >'{3}' 2>'{3}.err'",
       profile.path().string(), arguments, page.string(), out);
@@ -838,13 +838,53 @@ TEST_F(Report, AnswersToTheMouse)
   const std::string title = title_of(shown);
   const std::size_t faces = title.find(" faces ");
   EXPECT_EQ(title.substr(0, faces),
-            "probed +hover +zoom +whole range +hide +show +as printed +interactive again +grains +cracks "
-            "+slider +pick +enlarge +whole");
+            "probed +hover +zoom +whole range +hide +show +as printed +interactive again +4 tests side by side +grains "
+            "+cracks +filled +marks at the end +slider +marks at the beginning +filter +stress +pick +enlarge +whole");
   // Polygons of grains have a face where there is a joint; the load has moved a few pairs across the installation gap.
   const auto summary = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
   const auto n_joints = summary["tests"][0]["n_joints"].get<double>();
   ASSERT_NE(faces, std::string::npos) << title;
   EXPECT_NEAR(std::stod(title.substr(faces + 7)), n_joints, 0.1 * n_joints); // of another seed perhaps
+}
+
+TEST_F(Report, WritesTheCrackingAsAFilm)
+{
+  const auto made = run_feldspar(folder.path(), "report out --film --quiet");
+  EXPECT_EQ(made.exit_code, 0) << made.error;
+  EXPECT_EQ(made.output, "out/report.html\nout/film.webp\n");
+  const std::string film = content(folder.path() / "out/film.webp");
+  ASSERT_TRUE(film.starts_with("RIFF"));
+  EXPECT_EQ(count(film, "ANMF"), 38u); // 32 steps, of which the last stands for a while
+  // A browser plays it: another colour than that of the corner covers a good part of the first picture.
+  folder.write(
+    "film.html",
+    fmt::format("<title>none</title><script>const film = new Image(); film.onload = () => {{"
+                "const sheet = document.createElement('canvas'); sheet.width = film.naturalWidth; "
+                "sheet.height = film.naturalHeight; const pen = sheet.getContext('2d'); pen.drawImage(film, 0, 0);"
+                "const all = new Uint32Array(pen.getImageData(0, 0, sheet.width, sheet.height).data.buffer);"
+                "document.title = sheet.width + ' ' + all.filter(one => one !== all[0]).length / all.length; }};"
+                "film.src = 'out/film.webp';</script>"));
+  std::istringstream shown(title_of(Browser::show(
+    folder.path() / "film.html", "--allow-file-access-from-files --virtual-time-budget=5000 --dump-dom")));
+  double width = 0.0, share = 0.0;
+  shown >> width >> share;
+  EXPECT_GT(width, 700.0);
+  EXPECT_GT(share, 0.2);
+}
+
+TEST_F(Report, NamesThePackageWithoutWhichThereIsNoFilm)
+{
+  const auto refused = run_feldspar(folder.path(), "report out --film", "PATH=" + (folder.path() / "empty").string());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.error, "feldspar: --film: Chromium, which makes the film, is not installed (package chromium)\n");
+  EXPECT_FALSE(fs::exists(folder.path() / "out/film.webp"));
+  // A page without specimens has no film either.
+  folder.write("core.csv",
+               measured_curve("axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]"));
+  const auto without = run_feldspar(folder.path(), "report --curve core.csv --output curve --film");
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_NE(without.error.find("shows no specimen with cracks"), std::string::npos) << without.error;
+  EXPECT_FALSE(fs::exists(folder.path() / "curve/film.webp"));
 }
 
 TEST_F(Report, ShowsItsPicturesWithoutItsScript)
@@ -947,6 +987,20 @@ TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsRves)
     }
   EXPECT_GE(n_rows, 2u);
   expect_shown_in_a_browser(page);
+
+  // The page shows the cells by any of their fields, and the numbers of one that is clicked.
+  folder.write("probed.html", with_script(content(page), R"(addEventListener('load', () => {
+    const sample = document.querySelector('.sample'), canvas = sample.querySelector('canvas');
+    const select = sample.parentElement.querySelector('select'), before = canvas.toDataURL();
+    select.value = 'stress_yy_Pa';
+    select.dispatchEvent(new Event('change'));
+    const box = canvas.getBoundingClientRect();
+    canvas.dispatchEvent(new MouseEvent('click', {clientX: box.left + 0.4 * box.width, clientY: box.top + 0.5 * box.height}));
+    document.title = [canvas.toDataURL() !== before, sample.querySelector('.reading').textContent].join(' ');
+  }))"));
+  const std::string probed =
+    title_of(Browser::show(folder.path() / "probed.html", "--window-size=1280,6000 --dump-dom"));
+  EXPECT_TRUE(std::regex_search(probed, std::regex("^true Cell [0-7]: .*stress yy [−0-9.]+ MPa"))) << probed;
 
   // A picture that is missing is reported in its place.
   fs::remove_all(folder.path() / "out/points");

@@ -70,7 +70,7 @@ const std::vector<Room> rooms = {
     "dem/lab", "dem/lab/protocols", "results", "results/runs", "coupling/network", "coupling/rve", "coupling/sample"}},
   {"report/chart", {"base"}},
   {"report/pictures",
-   {"base", "laboratory", "results", "results/runs", "results/fits", "results/folder", "report/chart"}},
+   {"base", "base/system", "laboratory", "results", "results/runs", "results/fits", "results/folder", "report/chart"}},
   {"report/pictures/maps", {"base", "laboratory", "results", "results/runs", "report/chart", "report/pictures"}},
   {"report/pictures/curves", {"base", "laboratory", "results", "results/runs", "report/chart", "report/pictures"}},
   {"report/page", {"base", "results", "results/runs", "results/folder", "report/chart", "report/pictures"}},
@@ -78,8 +78,8 @@ const std::vector<Room> rooms = {
    {"base", "laboratory", "results", "results/runs", "results/fits", "results/folder", "report/pictures",
     "report/pictures/curves", "report/pictures/maps", "report/page"}},
   {"report",
-   {"base", "results", "results/runs", "results/fits", "results/folder", "report/pictures", "report/page",
-    "report/sections"}},
+   {"base", "base/system", "results", "results/runs", "results/fits", "results/folder", "report/pictures",
+    "report/page", "report/sections"}},
 };
 
 /// The rooms of the command, which may include all libraries, from the ground up; each sees those before it.

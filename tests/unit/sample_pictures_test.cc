@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -125,6 +126,21 @@ TEST(SamplePicture, HasTheColoursOfItsOwnCells)
   const Picture same = sample_picture(test_with(fields), "Direct tension").at(0);
   EXPECT_LT(same.panels.at(0).colour.from.value(), same.panels.at(0).colour.to.value());
   EXPECT_NE(same.caption.find("All cells have the same share, 3 %"), std::string::npos) << same.caption;
+}
+
+TEST(SamplePicture, HasEveryFieldOfItsCellsForThePage)
+{
+  const auto picture = sample_picture(test_with(blocks(2)), "Direct tension").at(0);
+  const auto json = nlohmann::json::parse(picture.live());
+  EXPECT_EQ(json["what"], "sample");
+  EXPECT_EQ(json["scale"], 10.0);
+  ASSERT_EQ(json["cells"].size(), 4u);
+  EXPECT_EQ(json["cells"][3]["rest"], nlohmann::json::parse("[10, 10, 20, 10, 20, 20, 10, 20]"));      // mm
+  EXPECT_EQ(json["cells"][3]["moved"], nlohmann::json::parse("[10, 10.5, 20, 10.5, 20, 21, 10, 21]")); // 10 times
+  EXPECT_EQ(json["fields"][0], nlohmann::json::parse(R"({"field": "broken_segments_share", "name": "broken segments",
+    "unit": "%", "values": [0, 1, 2, 3]})"));
+  EXPECT_EQ(json["fields"][1]["name"], "stress xx");
+  EXPECT_EQ(json["fields"][1]["values"][0], 1.0); // MPa
 }
 
 TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)

@@ -3,7 +3,6 @@
 #include "report/pictures/figures.h"
 #include "report/pictures/maps/group_colour.h"
 #include "report/pictures/maps/map.h"
-#include "report/pictures/maps/specimen_data.h"
 
 #include <fmt/format.h>
 
@@ -130,8 +129,6 @@ Pictures crack_map(const FinishedTest& whole, const std::string& title)
            .raster = true,
            .vector = false,
            .panels = std::move(panels),
-           .columns = columns,
-           .story = specimen_data(whole),
-           .live_caption = fmt::format("{}, {}: segments broken up to the place of the slider", title, seed_of(test))}};
+           .columns = columns}};
 }
 } // namespace feldspar

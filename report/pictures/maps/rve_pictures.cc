@@ -1,6 +1,7 @@
 #include "base/append.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/maps/map.h"
+#include "report/pictures/maps/specimen_data.h"
 #include "report/pictures/plot_style.h"
 #include "report/pictures/rves.h"
 
@@ -13,6 +14,34 @@
 namespace feldspar
 {
 using namespace plot;
+
+namespace
+{
+/// Data by which the viewer shows RVEs with cracks as tests side by side, each with the curve of the sample.
+std::string viewer_data(const FinishedTest& test, const std::vector<std::string>& headings, const bool in_space)
+{
+  const auto& rves = test.appearance.rves;
+  std::vector<FinishedTest> shown(rves.size());
+  std::vector<TitledTest> titled;
+  for (std::size_t k = 0; k < rves.size(); ++k)
+    {
+      TestRecord& record = shown[k].record;
+      record = test.record;
+      record.cracks = rves[k].cracks;
+      record.size[2] = in_space ? record.size[0] : 0.0;
+      for (CurveSample& row : record.curve)
+        {
+          row.n_tension_cracks = row.n_shear_cracks = 0;
+          for (const Crack& crack : record.cracks)
+            if (crack.step <= row.step)
+              ++(crack.kind == CrackKind::tension ? row.n_tension_cracks : row.n_shear_cracks);
+        }
+      shown[k].appearance.grains_at_end = rves[k].grains;
+      titled.push_back({&shown[k], headings[k]});
+    }
+  return specimen_data(titled);
+}
+} // namespace
 
 std::string letter_of_rve(const std::size_t k) { return {char('A' + k)}; }
 
@@ -47,7 +76,13 @@ Pictures rve_picture(const FinishedTest& test, const std::string& title)
                 title, test.record.seed);
   const std::string alternative = fmt::format("Grains and cracks of {} representative volumes of {} (seed {}).",
                                               rves.size(), title, test.record.seed);
-  if (test.appearance.fields.dimension == 3 || test.appearance.fields.has("crack_orientation_zz_per_m"))
+  const bool in_space =
+    test.appearance.fields.dimension == 3 || test.appearance.fields.has("crack_orientation_zz_per_m");
+  std::string story = viewer_data(test, headings, in_space);
+  const std::string live_caption = fmt::format(
+    "{}, seed {}: cracks of the representative volumes up to the place of the slider, on the curve of the sample",
+    title, test.record.seed);
+  if (in_space)
     {
       Picture picture = space_picture_of_rves(rves, headings);
       picture.name = name;
@@ -55,6 +90,8 @@ Pictures rve_picture(const FinishedTest& test, const std::string& title)
                         ". Grains behind the mid-plane, every broken element as a disc; seen from the front, a "
                         "little from the right and from above";
       picture.alternative = alternative;
+      picture.story = std::move(story);
+      picture.live_caption = live_caption;
       return {picture};
     }
 
@@ -95,6 +132,8 @@ Pictures rve_picture(const FinishedTest& test, const std::string& title)
            .raster = true,
            .vector = false,
            .panels = std::move(panels),
-           .columns = int(rves.size())}};
+           .columns = int(rves.size()),
+           .story = std::move(story),
+           .live_caption = live_caption}};
 }
 } // namespace feldspar

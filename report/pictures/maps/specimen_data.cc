@@ -18,11 +18,10 @@ namespace feldspar
 namespace
 {
 using Json = nlohmann::ordered_json;
-using live::number;
 
 constexpr std::size_t most_rows = 300;
-constexpr std::size_t most_grains = 200'000; ///< some 4 MB
-constexpr std::size_t most_cracks = 150'000; ///< some 4 MB
+constexpr std::size_t most_grains = 200'000; ///< of all tests: 5 to 6 MB
+constexpr std::size_t most_cracks = 100'000; ///< of all tests: some 2 MB
 
 /// Whole numbers of a few bytes each, the lowest byte first, as the script reads them.
 class Bytes
@@ -85,18 +84,23 @@ Cube cube_around(const TestRecord& record, const std::vector<GrainPicture>& grai
 /// One of how many is kept.
 std::size_t stride_of(const std::size_t n, const std::size_t most) { return 1 + (n - 1) / most; }
 
-Json grain_data(const std::vector<GrainPicture>& grains, const Cube& cube, const double largest_radius)
+Json grain_data(const std::vector<GrainPicture>& grains, const std::size_t most, const Cube& cube,
+                const double largest_radius)
 {
-  const std::size_t every = stride_of(grains.size(), most_grains);
+  const std::size_t every = stride_of(grains.size(), most);
   const auto moved = [](const GrainPicture& grain, const std::size_t c) { return grain.position[c] - grain.start[c]; };
   double most_moved = std::numeric_limits<double>::min();
+  double most_stress = 0.0;
   for (const GrainPicture& grain : grains)
-    for (std::size_t c = 0; c < 3; ++c)
-      most_moved = std::max(most_moved, std::abs(moved(grain, c)));
+    {
+      for (std::size_t c = 0; c < 3; ++c)
+        most_moved = std::max(most_moved, std::abs(moved(grain, c)));
+      most_stress = std::max(most_stress, std::abs(grain.mean_stress));
+    }
   const bool has_groups =
     std::any_of(grains.begin(), grains.end(), [](const GrainPicture& grain) { return grain.mineral != 0; });
   const auto colours = has_groups ? group_colours(grains) : std::vector<unsigned int>();
-  Bytes places, moves, fragments, tones;
+  Bytes places, moves, fragments, tones, stresses;
   for (std::size_t i = 0; i < grains.size(); i += every)
     {
       cube.add_place(places, grains[i].start);
@@ -106,19 +110,23 @@ Json grain_data(const std::vector<GrainPicture>& grains, const Cube& cube, const
       fragments.add(std::min<std::uint32_t>(grains[i].fragment, 65535), 2);
       for (int shift = 16; has_groups && shift >= 0; shift -= 8)
         tones.add(colours[i] >> shift, 1);
+      if (most_stress > 0.0)
+        stresses.add_signed(grains[i].mean_stress / most_stress, 2);
     }
   return {{"every", every},
-          {"most_moved", number(most_moved / milli)},
+          {"most_moved", live::number(most_moved / milli)},
           {"place", places.text()},
           {"moved", moves.text()},
           {"fragment", fragments.text()},
-          {"tone", tones.text()}};
+          {"tone", tones.text()},
+          {"most_stress", live::number(most_stress / mega)},
+          {"stress", stresses.text()}};
 }
 
 Json crack_data(const std::vector<Crack>& cracks, const std::vector<const CurveSample*>& rows, const Cube& cube,
-                const double largest_size)
+                const std::size_t most, const double largest_size)
 {
-  const std::size_t every = stride_of(cracks.size(), most_cracks);
+  const std::size_t every = stride_of(cracks.size(), most);
   Bytes places, normals, of_rows, joints;
   for (std::size_t k = 0; k < cracks.size(); k += every)
     {
@@ -149,19 +157,25 @@ Json flaw_data(const std::vector<FlawPicture>& flaws)
     {
       Json outline = Json::array();
       for (const auto& point : flaw.outline)
-        outline.push_back({number(point[0] / milli), number(point[1] / milli), number(point[2] / milli)});
+        outline.push_back(
+          {live::number(point[0] / milli), live::number(point[1] / milli), live::number(point[2] / milli)});
       all.push_back({{"open", flaw.open}, {"outline", outline}});
     }
   return all;
 }
-} // namespace
 
-std::string specimen_data(const FinishedTest& test)
+bool is_shown(const TitledTest& one)
 {
+  return !one.test->record.curve.empty() && !one.test->record.cracks.empty() &&
+         !one.test->appearance.grains_at_end.empty();
+}
+
+/// One of `n` tests.
+Json data_of(const TitledTest& one, const std::size_t n)
+{
+  const FinishedTest& test = *one.test;
   const TestRecord& record = test.record;
   const auto& grains = test.appearance.grains_at_end;
-  if (record.curve.empty() || record.cracks.empty() || grains.empty())
-    return "";
   std::vector<const CurveSample*> kept;
   for (std::size_t k = 0; k < record.curve.size(); k += 1 + record.curve.size() / most_rows)
     kept.push_back(&record.curve[k]);
@@ -169,7 +183,7 @@ std::string specimen_data(const FinishedTest& test)
     kept.push_back(&record.curve.back());
   Json rows = Json::array();
   for (const CurveSample* row : kept)
-    rows.push_back({number(record.kind.strain(*row) / milli), number(record.kind.stress(*row) / mega, 4),
+    rows.push_back({live::number(record.kind.strain(*row) / milli), live::number(record.kind.stress(*row) / mega, 4),
                     row->n_tension_cracks, row->n_shear_cracks});
 
   // In the order of breaking, so that those broken up to a row are the first.
@@ -187,18 +201,29 @@ std::string specimen_data(const FinishedTest& test)
   double size = std::numeric_limits<double>::min();
   for (const Crack& crack : cracks)
     size = std::max(size, crack.size);
-  return live::text({{"what", "specimen"},
-                     {"space", record.dimension() == 3},
-                     {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
-                     {"stress", std::string(record.kind.channel.name) + " [MPa]"},
-                     {"low", {number(cube.low[0] / milli), number(cube.low[1] / milli), number(cube.low[2] / milli)}},
-                     {"span", number(cube.span / milli)},
-                     {"radius", number(radius / milli)},
-                     {"size", number(size / milli)},
-                     {"gap", number(record.specimen.installation_gap_ratio * mean_radius / milli)},
-                     {"rows", rows},
-                     {"grains", grain_data(grains, cube, radius)},
-                     {"flaws", flaw_data(test.appearance.flaws)},
-                     {"cracks", crack_data(cracks, kept, cube, size)}});
+  return {
+    {"title", one.title},
+    {"space", record.dimension() == 3},
+    {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
+    {"low", {live::number(cube.low[0] / milli), live::number(cube.low[1] / milli), live::number(cube.low[2] / milli)}},
+    {"span", live::number(cube.span / milli)},
+    {"radius", live::number(radius / milli)},
+    {"size", live::number(size / milli)},
+    {"gap", live::number(record.specimen.installation_gap_ratio * mean_radius / milli)},
+    {"rows", rows},
+    {"grains", grain_data(grains, most_grains / n, cube, radius)},
+    {"flaws", flaw_data(test.appearance.flaws)},
+    {"cracks", crack_data(cracks, kept, cube, most_cracks / n, size)}};
+}
+} // namespace
+
+std::string specimen_data(const std::vector<TitledTest>& tests)
+{
+  const auto n = std::size_t(std::count_if(tests.begin(), tests.end(), is_shown));
+  Json all = Json::array();
+  for (const TitledTest& one : tests)
+    if (is_shown(one))
+      all.push_back(data_of(one, n));
+  return n == 0 ? "" : live::text({{"what", "specimens"}, {"tests", all}});
 }
 } // namespace feldspar

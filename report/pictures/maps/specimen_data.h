@@ -2,12 +2,25 @@
 
 #include "results/runs/run.h"
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace feldspar
 {
-/// Grains and cracks of a test with its curve, for the viewer of the page (report/page/viewer.js): JSON with arrays in
+/// A test that the viewer shows, under a title.
+struct TitledTest
+{
+  const FinishedTest* test;
+  std::string title;
+};
+
+/// Largest number of tests that the viewer shows side by side.
+inline constexpr std::size_t most_specimens = 4;
+
+/// Grains and cracks of tests with their curves, for the viewer of the page (report/page/specimens.js): JSON with arrays in
 /// base64. Grains lie where they were when the loading began, so that a crack stands where it broke. Of more than 200 000
-/// grains, or 150 000 cracks, every second or third is kept. Empty without grains, cracks or a curve.
-std::string specimen_data(const FinishedTest& test);
+/// grains, or 100 000 cracks, of all tests every second or third is kept. Tests without grains, cracks or a curve are left
+/// out; empty without any other.
+std::string specimen_data(const std::vector<TitledTest>& tests);
 } // namespace feldspar

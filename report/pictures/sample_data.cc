@@ -1,0 +1,80 @@
+#include "report/pictures/sample_data.h"
+
+#include "base/prefixes.h"
+#include "report/chart/page_writer.h"
+#include "report/pictures/plot_style.h"
+#include "report/pictures/rves.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_cells = 20'000; ///< some 4 MB
+
+/// Name of a field in words, its unit and the size of this unit in SI.
+struct FieldTitle
+{
+  std::string name;
+  std::string unit;
+  double size;
+};
+
+FieldTitle title_of(const std::string& field)
+{
+  for (const auto& [ending, unit, size] :
+       {std::tuple("_share", "%", plot::percent), {"_Pa", "MPa", mega}, {"_per_m", "1/m", 1.0}, {"", "", 1.0}})
+    if (field.ends_with(ending))
+      {
+        std::string name = field.substr(0, field.size() - std::string_view(ending).size());
+        std::replace(name.begin(), name.end(), '_', ' ');
+        return {name, unit, size};
+      }
+  return {};
+}
+
+Json corners_of(const std::vector<PlanePoint>& points)
+{
+  Json corners = Json::array();
+  for (const PlanePoint& point : points)
+    for (const double x : point)
+      corners.push_back(live::number(x / milli));
+  return corners;
+}
+} // namespace
+
+std::string sample_data(const FinishedTest& test, const SampleView& view, const std::vector<SamplePiece>& pieces,
+                        const double scale)
+{
+  if (pieces.size() > most_cells)
+    return "";
+  const SampleFields& fields = test.appearance.fields;
+  Json cells = Json::array();
+  for (const SamplePiece& piece : pieces)
+    cells.push_back({{"cell", fields.of_each_cell.at("cell")[piece.cell]},
+                     {"rest", corners_of(piece.rest)},
+                     {"moved", corners_of(piece.moved)}});
+  Json all = Json::array();
+  for (const auto& [field, values] : fields.of_each_cell)
+    if (field != "cell")
+      {
+        const FieldTitle title = title_of(field);
+        Json of_pieces = Json::array();
+        for (const SamplePiece& piece : pieces)
+          of_pieces.push_back(live::number(values[piece.cell] / title.size, 4));
+        all.push_back({{"field", field}, {"name", title.name}, {"unit", title.unit}, {"values", std::move(of_pieces)}});
+      }
+  Json marks = Json::array();
+  for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)
+    marks.push_back({{"letter", letter_of_rve(k)}, {"at", corners_of({view.place(test.appearance.rves[k])})}});
+  return live::text(
+    {{"what", "sample"}, {"scale", live::number(scale)}, {"cells", cells}, {"fields", all}, {"marks", marks}});
+}
+} // namespace feldspar
