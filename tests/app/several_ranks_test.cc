@@ -75,9 +75,20 @@ void expect_same_run(const fs::path& one, const fs::path& other, const std::size
     for (std::size_t c = 0; c < 5; ++c) // test, kind, joint, segment, step
       ASSERT_EQ(cracks[k][c], other_cracks[k][c]) << "line " << k + 1;
 
-  // Each step took as many iterations, cascades and cuts.
-  EXPECT_EQ(table(one / "steps.csv"), table(other / "steps.csv"));
-  EXPECT_GT(table(one / "steps.csv").size(), 1u);
+  // Each step took as many iterations, cascades and cuts. Sums over ranks differ by round-off, and with them residuals near it.
+  auto steps = table(one / "steps.csv");
+  auto other_steps = table(other / "steps.csv");
+  ASSERT_EQ(steps.size(), other_steps.size());
+  ASSERT_GT(steps.size(), 1u);
+  const auto residual = std::size_t(std::find(steps[0].begin(), steps[0].end(), "residual") - steps[0].begin());
+  ASSERT_LT(residual, steps[0].size());
+  for (std::size_t k = 1; k < steps.size(); ++k)
+    {
+      const double of_one = std::stod(std::exchange(steps[k][residual], ""));
+      const double of_other = std::stod(std::exchange(other_steps[k][residual], ""));
+      EXPECT_NEAR(of_one, of_other, 0.1 * of_one + 1e-7) << "row " << k;
+    }
+  EXPECT_EQ(steps, other_steps);
 
   const auto curve = table(one / "curves" / (test_name + ".csv"));
   const auto other_curve = table(other / "curves" / (test_name + ".csv"));
