@@ -262,7 +262,11 @@ std::vector<std::string> hold_pressure(TestRecord& record, const std::string& fi
   std::size_t end = peak;
   while (end < curve.size() && is_held(curve[end]))
     ++end;
-  for (std::size_t k = begin; k <= peak; ++k)
+  const auto deviator = [](const CurveSample& row) { return row.lateral_stress - row.axial_stress; };
+  // Rows that are left out at the beginning fill the cell; a test is loaded after it, row by row.
+  const bool is_filled =
+    peak >= begin + 2 && (begin == 0 || deviator(curve[begin - 1]) <= steady * deviator(curve[peak]));
+  for (std::size_t k = is_filled ? begin : 0; k <= peak; ++k)
     if (!is_held(curve[k]) || !(median > 0.0))
       throw InputError(
         fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in most rows; once reached it "
