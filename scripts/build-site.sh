@@ -16,7 +16,8 @@ cd "$root"
 find README.md CONTRIBUTING.md CHANGELOG.md docs examples benchmarks \
   \( -name '*.md' -o -path '*/figures/*' -o -path '*/results/*.png' -o -path '*/results/*.svg' \) -type f \
   -not -path 'docs/site/*' -exec cp --parents -t "$pages" {} +
-cp docs/site/conf.py docs/site/index.md "$pages"
+cp docs/site/conf.py "$pages"
+sed 's|](../../|](|' docs/site/index.md >"$pages/index.md" # the first page stands at the root of the site
 mkdir -p "$site"
 "$feldspar" lab examples/first-run/granite.prm --output "$pages/run" --quiet >/dev/null
 mkdir "$pages/beside" && cp "$pages/run/report.html" "$pages/beside"

@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
   testing::Values(
     Mistake{"", "path.csv:1: the header is \"\""},
     Mistake{"0,0,0\n", "path.csv:1: the header is \"0,0,0\"; it must be \"normal_m,shear_m,rotation_rad\""},
-    Mistake{"shear_m,normal_m,rotation_rad\n0,0,0\n", "path.csv:1: the header is "},
+    Mistake{"shear_m,rotation_rad\n0,0\n", "path.csv:1: the header is "},
     Mistake{"normal_m,shear_m,rotation_rad\n", "path.csv: there is no row"},
     Mistake{"normal_m,shear_m,rotation_rad\n0,0,0\n0,0\n",
             "path.csv:3: there must be 3 values, one for each of normal_m,shear_m,rotation_rad; found"},
