@@ -405,10 +405,18 @@ double CylinderSize::section() const { return std::numbers::pi / 4.0 * diameter 
 
 CylinderSize parse_cylinder_size(const std::string_view text)
 {
-  const std::vector<double> sizes = parse_quantities(text, length);
+  std::vector<double> sizes;
+  std::string reason = "found is " + in_quotes(text);
+  try
+    {
+      sizes = parse_quantities(text, length);
+    }
+  catch (const InputError& error)
+    {
+      reason = error.what();
+    }
   if (sizes.size() != 2 || !(sizes[0] > 0.0) || !(sizes[1] > 0.0))
-    throw InputError(
-      fmt::format("--curve-size is {}; it must be diameter and height, as in \"50, 100 mm\"", in_quotes(text)));
+    throw InputError(fmt::format("--curve-size must be diameter and height, as in \"50, 100 mm\": {}", reason));
   return {sizes[0], sizes[1]};
 }
 
