@@ -291,6 +291,7 @@ std::vector<PackingColumn> columns_by_order(const std::vector<NumberedLine>& row
                   rows.front().line, n, dim == 2 ? "x y radius" : "x y z radius",
                   dim == 2 ? ", and with one z for all before the radius" : ""));
   std::vector<PackingColumn> columns;
+  columns.reserve(n_wanted);
   for (int axis = 0; axis < dim; ++axis)
     columns.push_back({first + std::size_t(axis), 1.0});
   columns.push_back({first + (has_height ? 3 : 2), 1.0});
