@@ -6,7 +6,11 @@
 
 namespace feldspar::fem
 {
-std::vector<unsigned int> partition_weights(const std::vector<double>& seconds, const std::size_t n_ranks)
+namespace
+{
+/// Weights none of which is above `largest_share` of the share of a rank.
+std::vector<unsigned int> weights_below(const double largest_share, const std::vector<double>& seconds,
+                                        const std::size_t n_ranks)
 {
   // Every cell is work, however short its time.
   constexpr double least_share_of_mean = 1e-3;
@@ -16,9 +20,7 @@ std::vector<unsigned int> partition_weights(const std::vector<double>& seconds, 
   for (const double time : seconds)
     weights.push_back(mean > 0.0 ? time / mean + least_share_of_mean : 1.0);
 
-  // Each cut of a weight lowers the share of a rank, so that more may have to be cut off. A weight stays a hundredth below the
-  // share: the last rank would be without a cell where rounding lifts that of the last cell above it.
-  constexpr double largest_share = 0.99;
+  // Each cut of a weight lowers the share of a rank, so that more may have to be cut off.
   double sum = 0.0;
   for (int round = 0; round < 50; ++round)
     {
@@ -31,6 +33,22 @@ std::vector<unsigned int> partition_weights(const std::vector<double>& seconds, 
   for (const double weight : weights)
     result.push_back(std::max(1u, static_cast<unsigned int>(weight / sum * whole)));
   return result;
+}
+
+bool leaves_a_rank_without_cell(const std::vector<unsigned int>& weights, const std::size_t n_ranks)
+{
+  const auto cuts = partition_cuts(weights, n_ranks);
+  return std::adjacent_find(cuts.begin(), cuts.end()) != cuts.end();
+}
+} // namespace
+
+std::vector<unsigned int> partition_weights(const std::vector<double>& seconds, const std::size_t n_ranks)
+{
+  // Rounding may lift the weight of the last cell above the share: the rank before then takes it, and the last has none.
+  for (const double largest_share : {1.0, 0.99})
+    if (auto weights = weights_below(largest_share, seconds, n_ranks); !leaves_a_rank_without_cell(weights, n_ranks))
+      return weights;
+  return std::vector<unsigned int>(seconds.size(), 1);
 }
 
 std::vector<std::size_t> partition_cuts(const std::vector<unsigned int>& weights, const std::size_t n_ranks)

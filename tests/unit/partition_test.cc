@@ -30,6 +30,16 @@ TEST(Partition, OneExpensiveCellLeavesNoRankWithoutAny)
   // The share of a rank is 34 s; by weight alone the first cell would have taken those of two ranks.
   const std::vector<double> seconds{100.0, 1.0, 1.0, 1.0, 1.0};
   EXPECT_EQ(partition_cuts(partition_weights(seconds, 3), 3), (Cuts{0, 1, 3, 5}));
+  // The same at the other end, where rounding once gave the last cell to the rank before.
+  for (std::size_t n_ranks = 2; n_ranks <= 8; ++n_ranks)
+    for (std::size_t last = 0; last < 8; ++last)
+      {
+        std::vector<double> all(8, 0.0);
+        all[last] = all[7] = 100.0;
+        const Cuts cuts = partition_cuts(partition_weights(all, n_ranks), n_ranks);
+        for (std::size_t rank = 0; rank < n_ranks; ++rank)
+          EXPECT_LT(cuts[rank], cuts[rank + 1]) << n_ranks << " ranks, cell " << last;
+      }
   // Number of ranks equal to the number of cells.
   EXPECT_EQ(partition_cuts(partition_weights(seconds, 5), 5), (Cuts{0, 1, 2, 3, 4, 5}));
 }
