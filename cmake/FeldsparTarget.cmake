@@ -5,7 +5,9 @@ target_compile_features(feldspar_settings INTERFACE cxx_std_20)
 target_include_directories(feldspar_settings INTERFACE ${CMAKE_SOURCE_DIR})
 # No fused multiply-add behind our back: the same source gives the same bits with every compiler and processor.
 target_compile_options(feldspar_settings INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow
-  -Wno-psabi) # vectors are handed over within one program only
+  -Wno-psabi # vectors are handed over within one program only
+  -fno-semantic-interposition) # calls within a shared library stay direct, and may be inlined
+set(CMAKE_POSITION_INDEPENDENT_CODE ON) # the Python module links the same objects as the programs
 # Eigen without its own vectors. With them the order of a sum depends on the processor and on where the numbers happen to
 # lie; and alignment and allocator would differ from those of the distribution's libraries, whose functions are linked
 # into the same program.
