@@ -32,7 +32,8 @@ void check_columns(const CsvReader& table, const std::string& file)
                                    fmt::join(columns, ", ")));
 }
 
-/// Why a stage cannot be made after the one before; empty if it can.
+} // namespace
+
 std::string objection(const LoadingStage& stage, const LoadingStage* const before)
 {
   for (const auto& [column, stress] :
@@ -81,7 +82,6 @@ std::string objection(const LoadingStage& stage, const LoadingStage* const befor
     return "changes confining_pressure_Pa on the way to an axial stress; change it in a hold or on the way to a strain";
   return "";
 }
-} // namespace
 
 std::vector<Entry<TestParameters>> loading_table_entries()
 {

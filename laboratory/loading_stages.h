@@ -36,6 +36,9 @@ std::vector<Entry<TestParameters>> loading_table_entries();
 /// the stage, for a stage that cannot be made.
 std::vector<LoadingStage> read_loading_stages(const std::filesystem::path& file);
 
+/// The reason why a stage cannot be made after the one before, null of the first; empty if it can.
+std::string objection(const LoadingStage& stage, const LoadingStage* before);
+
 /// Target of a stage in words: "axial strain 0.004", "hold of 1e-05 s".
 std::string words(const LoadingStage& stage);
 

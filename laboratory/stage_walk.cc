@@ -30,6 +30,13 @@ void StageWalk::begin_next(const std::uint64_t row, const StageMoment& now)
   strain_at_highest = now.axial_strain;
 }
 
+void StageWalk::begin_last(const std::uint64_t row, const StageMoment& now)
+{
+  early.clear();
+  begun.back().last_row = row;
+  begin_next(row, now);
+}
+
 bool StageWalk::needs_lateral_strain() const
 {
   return std::any_of(stages.begin(), stages.end(),

@@ -47,6 +47,10 @@ public:
   /// Sets off at the first row of the curve.
   void begin(const StageMoment& now);
 
+  void append(const LoadingStage& one) { stages.push_back(one); }
+  /// Leaves the present stage where it stands, at this row, and begins the last one.
+  void begin_last(std::uint64_t row, const StageMoment& now);
+
   /// Demand of the present stage; to be called before each step.
   StageDemand demand(const StageMoment& now);
   bool is_at_end_of_stage(const StageMoment& now) const;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// The entries that an input file gives, in one reading: their names checked, their values still text.
@@ -40,6 +41,13 @@ public:
   /// Reads a .prm or .json file. `settings`: Section/Entry = value each, in place of what the file says. Throws
   /// InputError.
   explicit GivenEntries(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+
+  /// Entries that do not come from a file, each with its place.
+  explicit GivenEntries(std::vector<GivenEntry> given)
+    : name("input")
+    , entries(std::move(given))
+  {
+  }
 
   const std::vector<GivenEntry>& all() const { return entries; }
 

@@ -320,10 +320,13 @@ std::filesystem::path Input::file_named(const std::string_view name) const
 Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder,
                  const std::vector<std::string>& settings)
 {
-  const GivenEntries values(file, settings);
+  return read_input(GivenEntries(file, settings), folder.empty() ? file.parent_path() : folder);
+}
 
+Input read_input(const GivenEntries& values, const std::filesystem::path& folder)
+{
   Input input;
-  input.folder = folder.empty() ? file.parent_path() : folder;
+  input.folder = folder;
   for (const GivenEntry& given : values.all())
     try
       {

@@ -25,6 +25,8 @@
 
 namespace feldspar
 {
+class GivenEntries;
+
 /// The pair of grains of `feldspar contact`.
 struct ContactParameters
 {
@@ -126,6 +128,8 @@ struct Variant
 /// place of what the file says.
 Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder = {},
                  const std::vector<std::string>& settings = {});
+/// The same of entries that were read already.
+Input read_input(const GivenEntries& values, const std::filesystem::path& folder);
 
 /// Number of grains that genesis will pack.
 double expected_grains(const SpecimenParameters& specimen);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
-#include "app/input/parameter_table.h"
+#include "base/body.h"
 #include "dem/specimen/specimen.h"
 #include "results/folder/reference.h"
 

@@ -150,10 +150,7 @@ void LabTest<dim>::seat(const std::function<void()>& check)
     opening_at_start = set_up.loading.opening(dynamics);
   gauge_positions = dynamics.specimen().grains.position;
   start_gauge();
-  if (stage_walk.needs_lateral_strain() && std::isnan(displacement_gradient()(0, 0)))
-    throw ParameterError(parameter_id<&LoadingTable::file>(),
-                         "lateral_strain cannot be measured: too few grains with joints in the middle of "
-                         "the specimen; make it wider or the grains smaller");
+  check_gauge();
   time_at_start = time_of_last_row = dynamics.time();
   seated = true;
   record.curve.push_back(checked(sample(), dynamics));
@@ -162,6 +159,26 @@ void LabTest<dim>::seat(const std::function<void()>& check)
   take_snapshot();
   if (set_up.loading.drive_stage)
     stage_walk.begin(moment());
+}
+
+template <int dim>
+void LabTest<dim>::check_gauge() const
+{
+  if (stage_walk.needs_lateral_strain() && std::isnan(displacement_gradient()(0, 0)))
+    throw ParameterError(parameter_id<&LoadingTable::file>(),
+                         "lateral_strain cannot be measured: too few grains with joints in the middle of "
+                         "the specimen; make it wider or the grains smaller");
+}
+
+template <int dim>
+void LabTest<dim>::follow(const LoadingStage& stage)
+{
+  stage_walk.append(stage);
+  if (!seated)
+    return;
+  check_gauge();
+  stage_walk.begin_last(record.curve.size() - 1, moment());
+  ended = went_wrong();
 }
 
 /// Strain along the last axis, tension positive.

@@ -76,6 +76,10 @@ public:
   /// InputError where the confinement cannot be reached, or a prescribed strain not be measured.
   bool advance(const std::function<void()>& check = [] {});
 
+  /// Appends a stage to those of a test that follows stages. It begins where the test stands, before the first row with the
+  /// others. Throws InputError where its lateral strain cannot be measured.
+  void follow(const LoadingStage& stage);
+
   bool has_ended() const { return ended; }
   bool is_seated() const { return seated; }
   /// Returns whether the test has ended because of its numbers.
@@ -100,6 +104,7 @@ private:
   Tensor<dim> displacement_gradient() const;
   CurveSample sample() const;
   void seat(const std::function<void()>& check);
+  void check_gauge() const;
   void load_to_next_row(const std::function<void()>& check);
   void step();
   void add_row();

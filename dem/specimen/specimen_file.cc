@@ -473,6 +473,17 @@ Specimen<dim> read_specimen(const std::filesystem::path& file, const std::functi
   return specimen;
 }
 
+unsigned int dimension_of_specimen(const std::filesystem::path& file, const std::function<void()>& check_now)
+{
+  std::uint32_t dimension = 0;
+  const auto read = [&](Hdf5Reader& root) {
+    root.value("dimension", dimension);
+    require(dimension == 2 || dimension == 3, "a specimen of neither two nor three dimensions");
+  };
+  read_foreign_hdf5(file, "a specimen.h5 of " + in_words(Work::specimen), read, check_now);
+  return dimension;
+}
+
 template void write_specimen<2>(const Specimen<2>&, const std::filesystem::path&,
                                 const std::function<void(Hdf5Writer&)>&);
 template Specimen<2> read_specimen<2>(const std::filesystem::path&, const std::function<void()>&);

@@ -20,4 +20,7 @@ void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& 
 template <int dim>
 Specimen<dim> read_specimen(
   const std::filesystem::path& file, const std::function<void()>& check = [] {});
+
+/// The dimension of the specimen in a file, 2 or 3. Throws InputError, and calls `check`, as read_specimen().
+unsigned int dimension_of_specimen(const std::filesystem::path& file, const std::function<void()>& check);
 } // namespace feldspar

@@ -3,6 +3,7 @@
 #include "base/csv.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
+#include "results/folder/table_columns.h"
 
 #include <fmt/format.h>
 
@@ -26,36 +27,6 @@ std::vector<Column<CurveSample>> columns_of_curves(const TestBody body)
     if (!one.is(only_of_samples) || body == TestBody::finite_elements)
       columns.push_back(one);
   return columns;
-}
-
-/// All but the name of the test and the kind.
-constexpr Column<Crack> crack_columns[] = {column<Crack, &Crack::joint>("joint"),
-                                           column<Crack, &Crack::segment>("segment"),
-                                           column<Crack, &Crack::step>("step"),
-                                           column<Crack, &Crack::axial_strain>("axial_strain", "", positive_in_test),
-                                           column<Crack, &Crack::centroid, 0>("x_m"),
-                                           column<Crack, &Crack::centroid, 1>("y_m"),
-                                           column<Crack, &Crack::centroid, 2>("z_m"),
-                                           column<Crack, &Crack::normal, 0>("normal_x"),
-                                           column<Crack, &Crack::normal, 1>("normal_y"),
-                                           column<Crack, &Crack::normal, 2>("normal_z"),
-                                           column<Crack, &Crack::size>("size_m"),
-                                           column<Crack, &Crack::released_energy>("released_energy_J"),
-                                           column<Crack, &Crack::on_smooth_joint>("on_smooth_joint", "", added_later)};
-
-/// `group`: the name of the column of the groups, which outlives the columns.
-std::array<Column<GrainPicture>, 10> grain_columns(const std::string_view group)
-{
-  return {column<GrainPicture, &GrainPicture::start, 0>("start_x_m"),
-          column<GrainPicture, &GrainPicture::start, 1>("start_y_m"),
-          column<GrainPicture, &GrainPicture::start, 2>("start_z_m"),
-          column<GrainPicture, &GrainPicture::position, 0>("x_m"),
-          column<GrainPicture, &GrainPicture::position, 1>("y_m"),
-          column<GrainPicture, &GrainPicture::position, 2>("z_m"),
-          column<GrainPicture, &GrainPicture::radius>("radius_m"),
-          column<GrainPicture, &GrainPicture::fragment>("fragment"),
-          column<GrainPicture, &GrainPicture::mineral>(group, "", added_later),
-          column<GrainPicture, &GrainPicture::mean_stress>("mean_stress_Pa", "", added_later)};
 }
 
 const char* kind_name(const CrackKind kind) { return kind == CrackKind::tension ? "tension" : "shear"; }

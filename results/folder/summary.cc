@@ -271,6 +271,8 @@ Json shear_lines(const std::vector<FinishedTest>& tests)
 }
 } // namespace
 
+std::string test_as_json(const FinishedTest& test) { return json_text(describe(test)); }
+
 void write_summary(const Provenance& provenance, const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes,
                    const std::filesystem::path& file)
 {

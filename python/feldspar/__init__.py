@@ -1,0 +1,37 @@
+"""Feldspar: laboratory tests and representative volumes of brittle rock, as grains joined by faces that break.
+
+SI throughout. Stresses and strains of laboratory tests are positive in the sense of the test, those of representative
+volumes in tension. Quantities may be given as text with a unit, such as "10 MPa".
+
+>>> import feldspar
+>>> rock = feldspar.Input({"Specimen/Width": "20 mm", "Specimen/Height": "40 mm"})
+>>> test = feldspar.Specimen(rock, seed=1).test("uniaxial_compression")
+>>> test.run().curve
+"""
+
+from feldspar._core import Error
+from feldspar.bodies import Press, Rve, Specimen, Test, Trial, Volumes
+from feldspar.commands import Run, calibrate, contact, lab, multiscale, open, report, rve_path
+from feldspar.inputs import Input, entries, set_threads, version
+
+__all__ = [
+    "Error",
+    "Input",
+    "Press",
+    "Run",
+    "Rve",
+    "Specimen",
+    "Test",
+    "Trial",
+    "Volumes",
+    "calibrate",
+    "contact",
+    "entries",
+    "lab",
+    "multiscale",
+    "open",
+    "report",
+    "rve_path",
+    "set_threads",
+    "version",
+]

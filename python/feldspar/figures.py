@@ -1,0 +1,70 @@
+"""Pictures of curves and bodies, by Matplotlib."""
+
+from collections.abc import Mapping
+from typing import Union
+
+import matplotlib.pyplot
+import numpy
+import pandas
+from matplotlib.axes import Axes
+from matplotlib.collections import EllipseCollection, LineCollection
+
+from feldspar import _core
+
+_crack_colours = {"tension": "#c1272d", "shear": "#0050a0"}
+
+
+def curve_figure(curves: Mapping[str, pandas.DataFrame], axes: Union[Axes, None] = None) -> Axes:
+    """Draws axial stress over axial strain, a line a curve; of a single one the number of cracks too."""
+    axes = axes if axes is not None else matplotlib.pyplot.subplots()[1]
+    for name, curve in curves.items():
+        axes.plot(1e3 * curve["axial_strain"], 1e-6 * curve["axial_stress_Pa"], label=name.replace("_", " "))
+    axes.set_xlabel("axial strain [1e-3]")
+    axes.set_ylabel("axial stress [MPa]")
+    if len(curves) > 1:
+        axes.legend()
+    else:
+        (curve,) = curves.values()
+        cracks = axes.twinx()
+        cracks.plot(
+            1e3 * curve["axial_strain"], curve["n_tension_cracks"] + curve["n_shear_cracks"], color="0.6", linestyle="--"
+        )
+        cracks.set_ylabel("broken segments")
+    return axes
+
+
+def grains_figure(
+    grains: pandas.DataFrame, cracks: Union[pandas.DataFrame, None] = None, axes: Union[Axes, None] = None
+) -> Axes:
+    """Draws discs and broken segments in the plane; lengths in mm."""
+    if "z_m" in grains and numpy.ptp(grains["z_m"]) > 0.0:
+        raise _core.Error("this figure is of a body in the plane; a body in space is drawn by the page of feldspar.report()")
+    axes = axes if axes is not None else matplotlib.pyplot.subplots(figsize=(4.0, 7.0))[1]
+    centres = 1e3 * grains[["x_m", "y_m"]].to_numpy()
+    diameters = 2e3 * grains["radius_m"].to_numpy()
+    axes.add_collection(
+        EllipseCollection(
+            diameters,
+            diameters,
+            numpy.zeros(len(diameters)),
+            units="xy",
+            offsets=centres,
+            transOffset=axes.transData,
+            facecolors="#d8d2c4",
+            edgecolors="white",
+            linewidths=0.2,
+        )
+    )
+    if cracks is not None:
+        along = numpy.column_stack([-cracks["normal_y"], cracks["normal_x"]]) * cracks[["size_m"]].to_numpy() / 2.0
+        middle = cracks[["x_m", "y_m"]].to_numpy()
+        for kind, colour in _crack_colours.items():
+            own = (cracks["kind"] == kind).to_numpy()
+            ends = 1e3 * numpy.stack([(middle - along)[own], (middle + along)[own]], axis=1)
+            axes.add_collection(LineCollection(list(ends), colors=colour, linewidths=0.8, label=kind))
+        axes.legend(loc="upper right")
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.set_xlabel("x [mm]")
+    axes.set_ylabel("y [mm]")
+    return axes
