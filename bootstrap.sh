@@ -6,7 +6,8 @@
 #   ./bootstrap.sh test      packages, build by clang under the sanitizers, its unit tests and a minute of fuzzing, release
 #                            build by gcc, all tests
 #   ./bootstrap.sh build     packages and release build
-#   ./bootstrap.sh install   the same, and feldspar on the path (/usr/local; another place: install DIR)
+#   ./bootstrap.sh install   the same; the command, the library and the Python module in /usr/local (another place: install DIR)
+#   ./bootstrap.sh check     tries what is installed: breaks a small specimen by command and from Python
 #   ./bootstrap.sh package   a Debian package for any processor with AVX2, faster on those with AVX-512; ends with its path
 #   ./bootstrap.sh docs      the documentation as a site; ends with its path
 #   ./bootstrap.sh packages  packages only: everything the others need
@@ -23,12 +24,15 @@ build_packages=(
   libceres-dev libopenturns-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libexpat1-dev libkainjow-mustache-dev
   gnuplot-nox fonts-dejavu-core
 )
+python_packages=(pybind11-dev python3-dev python3-numpy python3-pandas python3-matplotlib)
 site_packages=(python3-sphinx python3-myst-parser furo libjs-katex)
 test_packages=(
   "${site_packages[@]}"
+  "${python_packages[@]}"
   clang clang-format clang-tidy python3 libgtest-dev libbenchmark-dev locales chromium slurm-wlm
   python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing; reads fields/
-  python3-pandas r-base-core # scripts of docs/recipes.md
+  mypy jupyter-nbconvert python3-ipykernel # of the Python module and its notebooks
+  r-base-core # scripts of docs/recipes.md
 )
 
 say() { printf '\n==> %s\n' "$*"; }
@@ -129,6 +133,7 @@ check_other_compiler()
 demo()
 {
   need_packages "${build_packages[@]}"
+  python_module=OFF
   build_release feldspar # without the finite elements, whose headers are half of a build
   local feldspar=build/release/app/feldspar
   say "breaking three specimens of Beishan granite: two minutes on two fast cores"
@@ -142,9 +147,10 @@ demo()
 }
 
 # build_release [TARGET]
+python_module=ON
 build_release()
 {
-  configure release "$joined_units" -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF
+  configure release "$joined_units" -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF "-DFELDSPAR_PYTHON=$python_module"
   cmake --build --preset release --parallel "$(nproc)" ${1:+--target "$1"}
 }
 
@@ -153,7 +159,7 @@ install_feldspar()
 {
   local prefix=${1:-/usr/local} parent
   umask 022 # what is installed or packed is everybody's to read
-  need_packages "${build_packages[@]}"
+  need_packages "${build_packages[@]}" "${python_packages[@]}"
   build_release
   say "installing into $prefix"
   parent=$prefix
@@ -166,10 +172,18 @@ install_feldspar()
   say "$("$prefix/bin/feldspar" version) is in $prefix/bin"
 }
 
+# check_installation [DIR]
+check_installation()
+{
+  local prefix=${1:-/usr/local}
+  PYTHONPATH=$(echo "$prefix"/lib/python3*/dist-packages) FELDSPAR_PROGRAM=$prefix/bin/feldspar \
+    /usr/bin/python3 -m feldspar.check
+}
+
 package()
 {
   umask 022
-  need_packages "${build_packages[@]}" dpkg-dev file
+  need_packages "${build_packages[@]}" "${python_packages[@]}" dpkg-dev file
   build package "$joined_units"
   build package-avx512 "$joined_units"
   say "packing"
@@ -190,7 +204,7 @@ run_all_tests()
     check_lint
     check_other_compiler
   fi
-  build release "$joined_units" -DBUILD_TESTING=ON -DFELDSPAR_BENCHMARKS=ON
+  build release "$joined_units" -DBUILD_TESTING=ON -DFELDSPAR_BENCHMARKS=ON -DFELDSPAR_PYTHON=ON
   run_tests release
 }
 
@@ -198,16 +212,18 @@ case "${1:-}" in
   demo) demo ;;
   test) run_all_tests ;;
   build)
-    need_packages "${build_packages[@]}"
+    need_packages "${build_packages[@]}" "${python_packages[@]}"
     build_release
     ;;
   docs)
     need_packages "${build_packages[@]}" "${site_packages[@]}"
+    python_module=OFF
     build_release feldspar # for the report that the site shows
     scripts/build-site.sh
     ;;
   install) install_feldspar "${@:2}" ;;
+  check) check_installation "${@:2}" ;;
   package) package ;;
   packages) need_packages "${build_packages[@]}" "${test_packages[@]}" ;;
-  *) die "usage: ./bootstrap.sh demo|test|build|install [DIR]|package|docs|packages" ;;
+  *) die "usage: ./bootstrap.sh demo|test|build|install [DIR]|check [DIR]|package|docs|packages" ;;
 esac

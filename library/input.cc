@@ -31,8 +31,11 @@ void set_threads(const std::size_t n)
 
 double in_si(const std::string_view text, const std::string_view quantity)
 {
-  const std::map<std::string_view, Dimension> known{
-    {"stress", feldspar::stress}, {"length", length}, {"angle", angle}, {"density", density}, {"rate", rate}};
+  const std::map<std::string_view, Dimension> known{{"stress", feldspar::stress},
+                                                    {"length", length},
+                                                    {"angle", angle},
+                                                    {"density", density},
+                                                    {"rate", rate}};
   const auto found = known.find(quantity);
   if (found == known.end())
     throw Error(fmt::format("{}: no such quantity; there are stress, length, angle, density and rate", quantity));
@@ -55,7 +58,8 @@ GivenEntry entry_of(const std::string_view name, const std::string_view value)
   const std::size_t slash = name.find('/');
   if (slash == name.npos)
     throw InputError(fmt::format("{}: write \"Section/Entry\", such as \"Specimen/Width\"", name));
-  GivenEntry given{std::string(name.substr(0, slash)), std::string(name.substr(slash + 1)), std::string(value), "input"};
+  GivenEntry given{std::string(name.substr(0, slash)), std::string(name.substr(slash + 1)), std::string(value),
+                   "input"};
   check_section(given.section, given.place);
   check_name(given);
   return given;
@@ -117,7 +121,8 @@ void Input::set(const std::string_view entry, const std::string_view value)
         throw GivenEntries({given}).error(given.section, given.entry, error.what());
       }
   });
-  const auto known = std::find_if(of->given.begin(), of->given.end(), [&](const auto& one) { return one.first == entry; });
+  const auto known =
+    std::find_if(of->given.begin(), of->given.end(), [&](const auto& one) { return one.first == entry; });
   if (known == of->given.end())
     of->given.emplace_back(entry, value);
   else

@@ -60,10 +60,10 @@ template <int dim>
 Voigt<dim> strain_of(const std::span<const double> values)
 {
   if (values.size() != n_voigt<dim>)
-    throw InputError(fmt::format("a strain has {} components; in {} dimensions there must be {}: {}", values.size(), dim,
-                                 n_voigt<dim>, dim == 2 ? "xx, yy, xy" : "xx, yy, zz, yz, xz, xy"));
+    throw InputError(fmt::format("a strain has {} components; in {} dimensions there must be {}: {}", values.size(),
+                                 dim, n_voigt<dim>, dim == 2 ? "xx, yy, xy" : "xx, yy, zz, yz, xz, xy"));
   const Voigt<dim> strain = Eigen::Map<const Voigt<dim>>(values.data());
-  if (!(strain.cwiseAbs().maxCoeff() <= largest_strain)) // nor is what is not a number
+  if (!(strain.array().abs() <= largest_strain).all()) // nor is what is not a number
     throw InputError(fmt::format("a strain has a component that is not in [-{0}, {0}]", largest_strain));
   return strain;
 }
@@ -186,16 +186,16 @@ TrialState trial_of(const RveState& state, const std::span<const double> strain,
 Trial Rve::trial(const std::span<const double> strain, const bool with_tangent, const Check& check) const
 {
   Trial trial;
-  trial.of = guarded(
-    [&] { return std::make_shared<TrialState>(trial_of(*of, strain, Bonds::frozen, with_tangent, check)); });
+  trial.of =
+    guarded([&] { return std::make_shared<TrialState>(trial_of(*of, strain, Bonds::frozen, with_tangent, check)); });
   return trial;
 }
 
 Trial Rve::relax(const std::span<const double> strain, const bool with_tangent, const Check& check) const
 {
   Trial trial;
-  trial.of = guarded(
-    [&] { return std::make_shared<TrialState>(trial_of(*of, strain, Bonds::may_break, with_tangent, check)); });
+  trial.of =
+    guarded([&] { return std::make_shared<TrialState>(trial_of(*of, strain, Bonds::may_break, with_tangent, check)); });
   return trial;
 }
 
@@ -246,7 +246,7 @@ template <int dim>
 struct Moment
 {
   std::vector<std::shared_ptr<const NetworkState<dim>>> damaged; ///< null: intact; [n]
-  std::uint64_t parent = ~std::uint64_t(0); ///< token of the state it came of; of rest none
+  std::uint64_t parent = ~std::uint64_t(0);                      ///< token of the state it came of; of rest none
 };
 
 template <int dim>
@@ -278,41 +278,40 @@ public:
     Moment<dim> outcome{std::vector<std::shared_ptr<const NetworkState<dim>>>(size()), parent};
     std::atomic<std::size_t> first_failure = size();
     constexpr std::size_t at_a_time = 16; // intact volumes need a few hundred nanoseconds each
-    oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<std::size_t>(0, size(), at_a_time), [&](const auto& range) {
-        leave_if(check);
-        for (std::size_t k = range.begin(); k < range.end(); ++k)
-          {
-            const Voigt<dim> strain = strain_of<dim>(strains.subspan(n * k, n));
-            const feldspar::Network<dim>& network = *networks[assigned[k]];
-            Voigt<dim> stress;
-            if (!from.damaged[k] && network.unbonded().empty() && network.stays_intact(strain))
-              {
-                stress = network.intact_stiffness() * strain;
-                if (!tangents.empty())
-                  write(network.intact_stiffness(), tangents.subspan(n * n * k, n * n));
-              }
-            else
-              {
-                Cell<dim> cell(networks[assigned[k]], parameters);
-                if (from.damaged[k])
-                  cell.restore(*from.damaged[k]);
-                auto trial = answer<dim>(cell, strain, Bonds::may_break, !tangents.empty(), check);
-                if (!trial.in_equilibrium)
-                  {
-                    for (std::size_t first = first_failure; k < first && !first_failure.compare_exchange_weak(first, k);)
-                      ;
-                    continue;
-                  }
-                stress = trial.state.stress;
-                if (!tangents.empty())
-                  write(trial.tangent->value, tangents.subspan(n * n * k, n * n));
-                if (!trial.state.intact)
-                  outcome.damaged[k] = std::make_shared<const NetworkState<dim>>(std::move(trial.state));
-              }
-            std::copy(stress.begin(), stress.end(), stresses.begin() + std::ptrdiff_t(n * k));
-          }
-      });
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size(), at_a_time), [&](const auto& range) {
+      leave_if(check);
+      for (std::size_t k = range.begin(); k < range.end(); ++k)
+        {
+          const Voigt<dim> strain = strain_of<dim>(strains.subspan(n * k, n));
+          const feldspar::Network<dim>& network = *networks[assigned[k]];
+          Voigt<dim> stress;
+          if (!from.damaged[k] && network.unbonded().empty() && network.stays_intact(strain))
+            {
+              stress = network.intact_stiffness() * strain;
+              if (!tangents.empty())
+                write(network.intact_stiffness(), tangents.subspan(n * n * k, n * n));
+            }
+          else
+            {
+              Cell<dim> cell(networks[assigned[k]], parameters);
+              if (from.damaged[k])
+                cell.restore(*from.damaged[k]);
+              auto trial = answer<dim>(cell, strain, Bonds::may_break, !tangents.empty(), check);
+              if (!trial.in_equilibrium)
+                {
+                  for (std::size_t first = first_failure; k < first && !first_failure.compare_exchange_weak(first, k);)
+                    ;
+                  continue;
+                }
+              stress = trial.state.stress;
+              if (!tangents.empty())
+                write(trial.tangent->value, tangents.subspan(n * n * k, n * n));
+              if (!trial.state.intact)
+                outcome.damaged[k] = std::make_shared<const NetworkState<dim>>(std::move(trial.state));
+            }
+          std::copy(stress.begin(), stress.end(), stresses.begin() + std::ptrdiff_t(n * k));
+        }
+    });
     if (first_failure < size())
       throw InputError(fmt::format("volume {} finds no equilibrium at its strain; take a smaller step", first_failure));
     accept(parent);
@@ -369,13 +368,13 @@ Volumes::Volumes(const std::span<const Specimen> specimens, const Input& input, 
     if (specimens.empty())
       throw InputError("volumes need at least one specimen");
     if (!assigned.empty() && assigned.size() != n)
-      throw InputError(fmt::format("{} volumes have {} specimens assigned to them; there must be one each", n,
-                                   assigned.size()));
+      throw InputError(
+        fmt::format("{} volumes have {} specimens assigned to them; there must be one each", n, assigned.size()));
     std::vector<std::size_t> of_volumes(assigned.begin(), assigned.end());
     of_volumes.resize(n, 0);
     if (std::any_of(of_volumes.begin(), of_volumes.end(), [&](const std::size_t k) { return k >= specimens.size(); }))
-      throw InputError(fmt::format("a volume has a specimen that is not there; they are numbered from 0 to {}",
-                                   specimens.size() - 1));
+      throw InputError(
+        fmt::format("a volume has a specimen that is not there; they are numbered from 0 to {}", specimens.size() - 1));
     const feldspar::Input wanted = input_of_rve(input, specimens.front());
     const auto make = [&]<int dim>() {
       std::vector<Network<dim>> networks;

@@ -31,8 +31,9 @@ Specimen Specimen::load(const std::string& file, const Check& check)
   return guarded([&] {
     const auto checks = interrupting(check);
     const unsigned int dimension = dimension_of_specimen(file, checks);
-    return dimension == 2 ? Specimen(std::make_shared<const SpecimenState>(SpecimenState{read_specimen<2>(file, checks)}))
-                          : Specimen(std::make_shared<const SpecimenState>(SpecimenState{read_specimen<3>(file, checks)}));
+    return dimension == 2
+             ? Specimen(std::make_shared<const SpecimenState>(SpecimenState{read_specimen<2>(file, checks)}))
+             : Specimen(std::make_shared<const SpecimenState>(SpecimenState{read_specimen<3>(file, checks)}));
   });
 }
 
@@ -76,11 +77,12 @@ Table Specimen::joints() const
   return std::visit(
     [](const auto& body) {
       const auto& joints = body.joints;
-      Table table{{"grain_1", {joints.grain_1.begin(), joints.grain_1.end()}},
-                  {"grain_2", {joints.grain_2.begin(), joints.grain_2.end()}}};
-      const auto row = [&](const char* name, const auto& values) {
-        table.push_back({name, {values.begin(), values.end()}});
+      Table table;
+      const auto row = [&](const char* name, const auto& values, const bool is_count = false) {
+        table.push_back({name, {values.begin(), values.end()}, is_count});
       };
+      row("grain_1", joints.grain_1, true);
+      row("grain_2", joints.grain_2, true);
       row("half_length_m", joints.half_length);
       row("gap_m", joints.opening);
       row("normal_stiffness_Pa_per_m", joints.normal_stiffness);

@@ -19,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-/// What the objects of the face stand for.
+/// States behind the objects of the face.
 namespace feldspar::v1
 {
 class InputState
@@ -89,7 +89,7 @@ Table table_of(const std::vector<Row>& rows, const Columns& columns, const doubl
   for (const feldspar::Column<Row>& one : columns)
     {
       const double factor = one.is(positive_in_test) ? sign : 1.0;
-      v1::Column& column = table.emplace_back(v1::Column{std::string(one.name), {}});
+      v1::Column& column = table.emplace_back(v1::Column{std::string(one.name), {}, one.most > 0.0});
       for (std::size_t k = from; k < rows.size(); ++k)
         column.values.push_back(factor * one.get(rows[k]));
     }

@@ -59,9 +59,8 @@ public:
     std::visit(
       [&]<int dim>(const feldspar::Specimen<dim>& body) {
         check_specimen_of_file(input, body);
-        running =
-          std::make_unique<LabTest<dim>>(LaboratoryCase{protocol_of(test.kind), test.confining_pressure},
-                                         feldspar::Specimen<dim>(body), input.tests, input.dynamics);
+        running = std::make_unique<LabTest<dim>>(LaboratoryCase{protocol_of(test.kind), test.confining_pressure},
+                                                 feldspar::Specimen<dim>(body), input.tests, input.dynamics);
       },
       specimen.state().body);
   }
@@ -131,8 +130,8 @@ void Test::follow(const Stage& stage)
 {
   guarded([&] {
     if (!of->last_stage)
-      throw InputError(fmt::format("{} follows no stages; begin a test of your own with its first stage",
-                                   of->test.kind.name));
+      throw InputError(
+        fmt::format("{} follows no stages; begin a test of your own with its first stage", of->test.kind.name));
     const LoadingStage next = stage_of(stage);
     check_stage(next, &*of->last_stage);
     std::visit([&](auto& one) { one->follow(next); }, of->running);
@@ -193,7 +192,7 @@ Table Test::cracks() const
 {
   const std::vector<Crack> cracks = of->finished_now().record.cracks;
   Table table = table_of(cracks, crack_columns, of->test.kind.sign);
-  v1::Column in_tension{"in_tension", {}};
+  v1::Column in_tension{"in_tension", {}, true};
   for (const Crack& crack : cracks)
     in_tension.values.push_back(crack.kind == CrackKind::tension ? 1.0 : 0.0);
   table.insert(table.begin(), std::move(in_tension));

@@ -57,14 +57,14 @@ py::dict dict_of(feldspar::Table&& table)
 {
   py::dict columns;
   for (feldspar::Column& column : table)
-    columns[py::str(column.name)] = array_of(std::move(column.values));
+    if (column.is_count)
+      columns[py::str(column.name)] = py::array_t<std::int64_t>(array_of(std::move(column.values)));
+    else
+      columns[py::str(column.name)] = array_of(std::move(column.values));
   return columns;
 }
 
-std::span<const double> span_of(const Array& array)
-{
-  return {array.data(), std::size_t(array.size())};
-}
+std::span<const double> span_of(const Array& array) { return {array.data(), std::size_t(array.size())}; }
 
 std::size_t n_voigt(const int dimension) { return dimension == 2 ? 3 : 6; }
 

@@ -1,5 +1,6 @@
 #include "app/programme/sample_checks.h"
 
+#include "app/input/parameter_table.h"
 #include "app/programme/checks.h"
 #include "app/programme/reference_body.h"
 #include "base/input_error.h"

@@ -53,6 +53,7 @@ struct Column
 {
   std::string name;
   std::vector<double> values;
+  bool is_count = false; ///< whole numbers: counts, and numbers of something
 };
 
 using Table = std::vector<Column>;
@@ -148,8 +149,8 @@ struct Stage
   std::optional<double> axial_strain;
   std::optional<double> axial_stress; ///< with a duration: held throughout [Pa]
   std::optional<double> lateral_strain;
-  std::optional<double> duration;   ///< [s]
-  double confining_pressure = 0.0;  ///< at its end [Pa]
+  std::optional<double> duration;    ///< [s]
+  double confining_pressure = 0.0;   ///< at its end [Pa]
   std::optional<double> strain_rate; ///< magnitude; none: Tests/Compression strain rate [1/s]
 };
 
@@ -182,7 +183,7 @@ public:
   Table curve(std::uint64_t from = 0) const;
   /// One row a broken segment, with in_tension 1 or 0; else as cracks.csv.
   Table cracks() const;
-  /// Where the grains were at the seating and where they are, as grains/*.csv.
+  /// Positions of the grains at the seating and now, as grains/*.csv.
   Table grains() const;
   /// The test as an element of `tests` in summary.json.
   std::string summary() const;
@@ -195,7 +196,7 @@ private:
 class FELDSPAR_PUBLIC Trial
 {
 public:
-  bool in_equilibrium() const; ///< false: none was found, and stress and strain are where the search ended
+  bool in_equilibrium() const;        ///< false: none was found, and stress and strain are where the search ended
   std::vector<double> strain() const; ///< Voigt, engineering shear; [n_voigt]
   std::vector<double> stress() const; ///< [Pa]; [n_voigt]
   /// [Pa]; rows first, [n_voigt²]; empty where it was not asked for.

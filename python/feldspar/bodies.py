@@ -62,7 +62,7 @@ class Specimen:
     @property
     def joints(self) -> pandas.DataFrame:
         """Grains (as rows of `grains`), half length, gap [m] and stiffnesses [Pa/m], a row a joint."""
-        return pandas.DataFrame(self.core.joints()).astype({"grain_1": int, "grain_2": int})
+        return pandas.DataFrame(self.core.joints())
 
     @property
     def report(self) -> dict[str, float]:
@@ -161,12 +161,12 @@ class Test:
         table = pandas.DataFrame(self.core.cracks())
         kind = numpy.where(table.pop("in_tension") == 1.0, "tension", "shear")
         table.insert(0, "kind", kind)
-        return table.astype({"joint": int, "segment": int, "step": int, "on_smooth_joint": bool})
+        return table
 
     @property
     def grains(self) -> pandas.DataFrame:
-        """Where the grains were when the loading began and where they are, with the columns of grains/*.csv."""
-        return pandas.DataFrame(self.core.grains()).astype({"fragment": int, "group": int})
+        """Positions of the grains when the loading began and now, with the columns of grains/*.csv."""
+        return pandas.DataFrame(self.core.grains())
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -216,14 +216,14 @@ class Press(Test):
         return self._test.n_rows if self._test else 0
 
     def _load(self, each: Each, confinement: Union[Quantity, None], **stage: Union[float, None]) -> "Press":
-        if confinement is not None:
-            self._confinement = in_si(confinement, "stress")
-        target = _core.Stage(confining_pressure=self._confinement, **stage)
+        pressure = self._confinement if confinement is None else in_si(confinement, "stress")
+        target = _core.Stage(confining_pressure=pressure, **stage)
         if self._test is None:
             self._test = _core.Test(self._specimen.core, self._specimen.input.core, target)
             self._columns = self._test.columns()
         else:
             self._test.follow(target)
+        self._confinement = pressure
         self.run(each=each)
         return self
 
@@ -315,7 +315,7 @@ class Rve:
 
     @property
     def stiffness(self) -> Numbers:
-        """Of the intact volume [Pa]; [n, n]."""
+        """Stiffness of the intact volume [Pa]; [n, n]."""
         return self.core.stiffness
 
     @property

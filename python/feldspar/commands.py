@@ -156,7 +156,7 @@ def _call(arguments: list[str]) -> None:
     beside = Path(__file__).parents[3] / "bin" / "feldspar"
     program = os.environ.get("FELDSPAR_PROGRAM") or shutil.which("feldspar") or str(beside)
     try:
-        ended = subprocess.run([program, *arguments], stderr=subprocess.PIPE, text=True, check=False)
+        ended = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
     except FileNotFoundError:
         raise _core.Error(f"{program}: the program is not there; install it, or set FELDSPAR_PROGRAM to its path") from None
     if ended.returncode == 130:

@@ -64,7 +64,12 @@ def grains_figure(
             axes.add_collection(LineCollection(list(ends), colors=colour, linewidths=0.8, label=kind))
         axes.legend(loc="upper right")
     axes.set_aspect("equal")
-    axes.autoscale_view()
+    # Pieces that fly off leave the picture, not the body small in it.
+    start = 1e3 * grains[["start_x_m", "start_y_m"] if "start_x_m" in grains else ["x_m", "y_m"]].to_numpy()
+    low, high = start.min(axis=0), start.max(axis=0)
+    margin = 0.1 * (high - low).min() + diameters.max() / 2.0
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
     axes.set_xlabel("x [mm]")
     axes.set_ylabel("y [mm]")
     return axes

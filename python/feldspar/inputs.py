@@ -54,6 +54,7 @@ class Input(MutableMapping[str, str]):
         entries: Union[Mapping[str, Value], None] = None,
     ) -> None:
         self.file: Union[Path, None] = None
+        self.core: _core.Input
         if isinstance(source, Input):
             self.core = _core.Input(source.core)
             self.file = source.file

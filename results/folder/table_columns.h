@@ -10,19 +10,20 @@
 namespace feldspar
 {
 /// The columns of cracks.csv but for the name of the test and the kind.
-inline constexpr Column<Crack> crack_columns[] = {column<Crack, &Crack::joint>("joint"),
-                                           column<Crack, &Crack::segment>("segment"),
-                                           column<Crack, &Crack::step>("step"),
-                                           column<Crack, &Crack::axial_strain>("axial_strain", "", positive_in_test),
-                                           column<Crack, &Crack::centroid, 0>("x_m"),
-                                           column<Crack, &Crack::centroid, 1>("y_m"),
-                                           column<Crack, &Crack::centroid, 2>("z_m"),
-                                           column<Crack, &Crack::normal, 0>("normal_x"),
-                                           column<Crack, &Crack::normal, 1>("normal_y"),
-                                           column<Crack, &Crack::normal, 2>("normal_z"),
-                                           column<Crack, &Crack::size>("size_m"),
-                                           column<Crack, &Crack::released_energy>("released_energy_J"),
-                                           column<Crack, &Crack::on_smooth_joint>("on_smooth_joint", "", added_later)};
+inline constexpr Column<Crack> crack_columns[] = {
+  column<Crack, &Crack::joint>("joint"),
+  column<Crack, &Crack::segment>("segment"),
+  column<Crack, &Crack::step>("step"),
+  column<Crack, &Crack::axial_strain>("axial_strain", "", positive_in_test),
+  column<Crack, &Crack::centroid, 0>("x_m"),
+  column<Crack, &Crack::centroid, 1>("y_m"),
+  column<Crack, &Crack::centroid, 2>("z_m"),
+  column<Crack, &Crack::normal, 0>("normal_x"),
+  column<Crack, &Crack::normal, 1>("normal_y"),
+  column<Crack, &Crack::normal, 2>("normal_z"),
+  column<Crack, &Crack::size>("size_m"),
+  column<Crack, &Crack::released_energy>("released_energy_J"),
+  column<Crack, &Crack::on_smooth_joint>("on_smooth_joint", "", added_later)};
 
 /// The columns of grains/NAME.csv. `group`: the name of the column of the groups, which outlives the columns.
 inline std::array<Column<GrainPicture>, 10> grain_columns(const std::string_view group)

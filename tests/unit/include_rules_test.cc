@@ -88,7 +88,7 @@ const std::vector<std::string> rooms_of_the_command = {"app/processes",   "app/i
                                                        "app/calibration", "app/commands"};
 
 /// Folders that may include any room, but for those named.
-const std::vector<std::string> above_all = {"app", "benchmarks", "tests"};
+const std::vector<std::string> above_all = {"app", "benchmarks", "library", "python", "tests"};
 
 /// Rooms that may include headers of deal.II; no others may.
 const std::vector<std::string> rooms_of_finite_elements = {"fem", "coupling/sample", "app/processes", "tests",

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Builds the programs of examples/library against an installation of its own, as somebody else would, and runs them.
+#
+#   tests/library/installed.sh BUILD_FOLDER
+set -euo pipefail
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+here=$(mktemp -d)
+trap 'rm -rf "$here"' EXIT
+
+cmake --install "$1" --prefix "$here/prefix" >/dev/null
+cmake -S "$source_dir/examples/library" -B "$here/build" -DCMAKE_PREFIX_PATH="$here/prefix" >/dev/null
+cmake --build "$here/build" --parallel 2
+
+fail()
+{
+  printf '%s\n' "$*" >&2
+  exit 1
+}
+"$here/build/uniaxial_compression" >"$here/uniaxial.csv"
+grep -Eq '^# compressive strength [0-9]+\.[0-9]+ MPa$' "$here/uniaxial.csv" || fail "no strength: $(tail -1 "$here/uniaxial.csv")"
+
+# Elastic until the first segment breaks: the force doubles with the displacement. Later bonds break, and the force falls.
+"$here/build/notched_plate" >"$here/plate.csv"
+awk -F, 'NR == 2 { first = $2 }
+  NR == 3 && ($3 != 0 || ($2 - 2 * first) ^ 2 > (1e-3 * first) ^ 2) { print "not elastic: " $0; bad = 1 }
+  $2 + 0 > peak { peak = $2 + 0 }
+  END { if (!($3 > 0 && $2 < 0.2 * peak)) { print "the plate holds: " $0; bad = 1 } exit bad }' "$here/plate.csv" ||
+  fail "$(cat "$here/plate.csv")"
+
+# The installed module finds the installed library and program.
+PYTHONPATH=$(echo "$here"/prefix/lib/python3*/dist-packages) FELDSPAR_PROGRAM=$here/prefix/bin/feldspar \
+  /usr/bin/python3 -m feldspar.check

@@ -1,0 +1,87 @@
+"""The commands from Python: the same folders to the bit, the same errors."""
+
+import filecmp
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import feldspar
+
+ENTRIES = {
+    "Specimen/Width": "12 mm",
+    "Specimen/Height": "24 mm",
+    "Tests/List": "direct_tension, uniaxial_compression",
+    "Seeds/Seeds": "1, 2",
+}
+
+
+class Commands(unittest.TestCase):
+    def test_write_the_folder_of_the_command(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "rock.json").write_text(feldspar.Input(ENTRIES).to_json())
+            program = os.environ["FELDSPAR_PROGRAM"]
+            subprocess.run(
+                [program, "lab", "rock.json", "--output", "by_command", "--quiet"],
+                cwd=folder, check=True, capture_output=True,
+            )
+            run = feldspar.lab(feldspar.Input(ENTRIES), folder / "by_python")
+            files = sorted(
+                one.relative_to(run.folder)
+                for kind in ("curves/*.csv", "grains/*.csv", "cracks.csv")
+                for one in run.folder.glob(kind)
+            )
+            self.assertEqual(len(files), 4 + 4 + 1)
+            equal, unequal, failed = filecmp.cmpfiles(folder / "by_command", run.folder, map(str, files), shallow=False)
+            self.assertEqual((unequal, failed), ([], []))
+            self.assertEqual(len(equal), len(files))
+            self.assertEqual(len(run.tests), 4)
+            self.assertEqual(set(run.curves), set(run.grains))
+            self.assertTrue(run.page.is_file())
+            page = feldspar.report(run, output=folder / "report")
+            self.assertTrue(page.is_file())
+            self.assertEqual(run.figure().get_ylabel(), "axial stress [MPa]")
+
+    def test_change_entries_of_a_file(self):
+        with tempfile.TemporaryDirectory() as name:
+            file = Path(name) / "rock.json"
+            file.write_text(feldspar.Input(ENTRIES).to_json())
+            rock = feldspar.Input(file, {"Tests/List": "direct_tension"})
+            del rock["Seeds/Seeds"]
+            run = feldspar.lab(rock, Path(name) / "run")
+            self.assertEqual(len(run.tests), 1)
+
+    def test_raise_the_line_of_the_command(self):
+        with tempfile.TemporaryDirectory() as name:
+            with self.assertRaisesRegex(feldspar.Error, "needs Shape = periodic"):
+                feldspar.rve_path(feldspar.Input(ENTRIES), Path(name) / "run")
+            with self.assertRaisesRegex(feldspar.Error, "no such folder"):
+                feldspar.open(Path(name) / "none")
+            with self.assertRaisesRegex(feldspar.Error, "did not write one"):
+                feldspar.open(name).summary
+
+
+class Types(unittest.TestCase):
+    """The package is checked as a caller's type checker sees it."""
+
+    def test_are_strict(self):
+        package = Path(feldspar.__file__).parent
+        checked = subprocess.run(
+            ["/usr/bin/mypy", "--strict", "--ignore-missing-imports", "--cache-dir", "/dev/null", "--package", "feldspar"],
+            cwd=package.parent, env={**os.environ, "MYPYPATH": str(package.parent)}, capture_output=True, text=True,
+        )
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+    def test_stub_is_current(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(["/usr/bin/stubgen", "--quiet", "--module", "feldspar._core", "--output", folder], check=True)
+            made = (Path(folder) / "feldspar" / "_core.pyi").read_text()
+        kept = (Path(feldspar.__file__).parent / "_core.pyi").read_text()
+        names = lambda text: {word for line in text.splitlines() for word in line.split("(")[0].split() if "def " in line}
+        self.assertEqual(names(made), names(kept))
+
+
+if __name__ == "__main__":
+    unittest.main()
