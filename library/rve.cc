@@ -245,7 +245,7 @@ namespace
 template <int dim>
 struct Moment
 {
-  std::vector<std::shared_ptr<const NetworkState<dim>>> damaged; ///< null: intact; [n]
+  std::vector<std::shared_ptr<const NetworkState<dim>>> damaged; ///< null: intact; [n], or none where all are
   std::uint64_t parent = ~std::uint64_t(0);                      ///< token of the state it came of; of rest none
 };
 
@@ -259,7 +259,7 @@ public:
     , assigned(std::move(of_volumes))
     , parameters(wanted)
   {
-    moments[0].damaged.resize(assigned.size());
+    moments[0] = {};
   }
 
   std::size_t size() const { return assigned.size(); }
@@ -285,7 +285,8 @@ public:
           const Voigt<dim> strain = strain_of<dim>(strains.subspan(n * k, n));
           const feldspar::Network<dim>& network = *networks[assigned[k]];
           Voigt<dim> stress;
-          if (!from.damaged[k] && network.unbonded().empty() && network.stays_intact(strain))
+          const NetworkState<dim>* const before = from.damaged.empty() ? nullptr : from.damaged[k].get();
+          if (!before && network.unbonded().empty() && network.stays_intact(strain))
             {
               stress = network.intact_stiffness() * strain;
               if (!tangents.empty())
@@ -294,8 +295,8 @@ public:
           else
             {
               Cell<dim> cell(networks[assigned[k]], parameters);
-              if (from.damaged[k])
-                cell.restore(*from.damaged[k]);
+              if (before)
+                cell.restore(*before);
               auto trial = answer<dim>(cell, strain, Bonds::may_break, !tangents.empty(), check);
               if (!trial.in_equilibrium)
                 {
@@ -314,6 +315,8 @@ public:
     });
     if (first_failure < size())
       throw InputError(fmt::format("volume {} finds no equilibrium at its strain; take a smaller step", first_failure));
+    if (std::none_of(outcome.damaged.begin(), outcome.damaged.end(), [](const auto& state) { return bool(state); }))
+      outcome.damaged = {};
     accept(parent);
     moments.emplace(++last, std::move(outcome));
     return last;
@@ -321,9 +324,11 @@ public:
 
   std::vector<std::size_t> n_broken(const std::uint64_t token) const
   {
-    std::vector<std::size_t> n;
-    for (const auto& state : moment(token).damaged)
-      n.push_back(state ? broken(*state) : 0);
+    std::vector<std::size_t> n(size(), 0);
+    const auto& damaged = moment(token).damaged;
+    for (std::size_t k = 0; k < damaged.size(); ++k)
+      if (damaged[k])
+        n[k] = broken(*damaged[k]);
     return n;
   }
 
