@@ -97,6 +97,15 @@ std::vector<std::string_view> split(std::string& line, const char separator)
   return found;
 }
 
+/// Returns whether the comma of a number may stand between thousands: 1,234, but neither 0,234 nor 12,34 nor 1234,567.
+bool is_perhaps_of_thousands(const std::string_view cell)
+{
+  const std::string_view digits = cell.substr(cell.starts_with('-') || cell.starts_with('+'));
+  const std::size_t comma = digits.find(',');
+  return comma >= 1 && comma <= 3 && digits.size() == comma + 4 && !digits.starts_with('0') &&
+         std::ranges::count_if(digits, [](const char c) { return '0' <= c && c <= '9'; }) == std::ptrdiff_t(comma + 3);
+}
+
 bool is_blank(const std::vector<std::string_view>& cells)
 {
   return std::all_of(cells.begin(), cells.end(), [](const std::string_view cell) { return cell.empty(); });
@@ -143,13 +152,14 @@ bool CsvReader::read_line()
     }
   while (trim(line).empty() || (is_below_preamble && line.starts_with('#')));
   const std::size_t first_line = line_number;
+  const auto opens_or_closes = [](const std::string& text) { return std::ranges::count(text, '"') % 2 == 1; };
   std::string more;
-  while (is_below_preamble && std::count(line.begin(), line.end(), '"') % 2 == 1)
+  for (bool is_open = is_below_preamble && opens_or_closes(line); is_open; is_open = is_open != opens_or_closes(more))
     {
       if (!std::getline(*stream, more))
         throw InputError(fmt::format("{}:{}: a double quote is opened and not closed", name, first_line));
       ++line_number;
-      line += '\n' + more;
+      (line += '\n') += more;
     }
   return true;
 }
@@ -172,7 +182,11 @@ bool CsvReader::next()
   do
     {
       if (!read_line())
-        return false;
+        {
+          if (!ambiguous.empty())
+            throw InputError(ambiguous);
+          return false;
+        }
       cells = split(line, separator);
     }
   while (is_blank(cells));
@@ -196,14 +210,29 @@ double CsvReader::number(const std::size_t column) const
                                                                                    : char(0);
   if (sign != 0 && decimal_sign != 0 && sign != decimal_sign)
     throw refusal(fmt::format("{} has another decimal sign than the numbers before it", in_quotes(cell)));
-  if (sign != 0)
-    decimal_sign = sign;
+  std::string with_point(cell);
+  std::string without_comma(cell);
+  if (sign == ',')
+    {
+      std::replace(with_point.begin(), with_point.end(), ',', '.');
+      std::erase(without_comma, ',');
+    }
+  if (sign == ',' && decimal_sign == 0 && is_perhaps_of_thousands(cell))
+    {
+      if (ambiguous.empty()) // until a number of the file shows its decimal sign
+        ambiguous = refusal(fmt::format("{} may mean {} or {}; write thousands without a comma, and a decimal point",
+                                        in_quotes(cell), with_point, without_comma))
+                      .what();
+    }
+  else if (sign == '.' && !ambiguous.empty())
+    throw InputError(ambiguous);
+  else if (sign != 0)
+    {
+      decimal_sign = sign;
+      ambiguous.clear();
+    }
   try
     {
-      if (sign != ',')
-        return parse_number(cell);
-      std::string with_point(cell);
-      std::replace(with_point.begin(), with_point.end(), ',', '.');
       return parse_number(with_point);
     }
   catch (const InputError& error)

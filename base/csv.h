@@ -14,7 +14,8 @@ namespace feldspar
 /// A table of cells under a line of column names, read row by row, as RFC 4180 has it and as machines, spreadsheets, R and pandas
 /// write it: cells between commas, semicolons or tabs, in double quotes or not; UTF-8 or UTF-16 with a byte-order mark; empty
 /// lines, lines that begin with #, and empty columns at the end are skipped. Where commas do not separate cells, a comma in a
-/// number is the decimal sign. Every mistake throws InputError with file and line.
+/// number is the decimal sign; one that may stand between thousands is refused if no other number of the file shows the
+/// decimal sign. Every mistake throws InputError with file and line.
 class CsvReader
 {
 public:
@@ -73,6 +74,7 @@ private:
   std::size_t line_number = 0;
   std::vector<std::string_view> cells; ///< of `line`
   mutable char decimal_sign = 0;       ///< as numbers have shown so far
+  mutable std::string ambiguous;       ///< refusal of a number that waits for another to show the decimal sign
 };
 
 /// Reads a table of decimal numbers with the columns of `header` in any order, beside which a column without a name may stand;

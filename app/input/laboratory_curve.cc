@@ -26,8 +26,10 @@ namespace
 {
 constexpr Dimension strain{"a strain", "1", "0.1 %"};
 constexpr Dimension force{"a force", "N", "200 kN"};
-constexpr double steady = 0.05;      // by so much the pressure may wander from its mean up to the peak
-constexpr double noise_share = 0.01; // of the peak stress: less is the noise of a pressure cell in the open
+constexpr double steady = 0.05; // by so much the pressure may wander from its mean up to the peak
+constexpr double noise_share =
+  0.01; // of the peak stress: less, and not held, is the noise of a pressure cell in the open
+constexpr double steady_if_small = 0.2; // the same of so small a pressure, whose wandering changes no strength
 
 /// Quantities that a curve may have; compression positive, a specimen that widens has negative lateral strains.
 enum class Measured : std::size_t
@@ -240,21 +242,16 @@ std::vector<std::string> hold_pressure(TestRecord& record, const std::string& fi
   auto& curve = record.curve;
   std::vector<std::string> remarks;
   const std::size_t peak = std::size_t(std::ranges::min_element(curve, {}, &CurveSample::axial_stress) - curve.begin());
-  const double highest = std::abs(curve[peak].axial_stress);
-  if (std::ranges::all_of(
-        curve, [&](const CurveSample& row) { return std::abs(row.lateral_stress) <= noise_share * highest; }))
-    {
-      for (CurveSample& row : curve)
-        row.lateral_stress = 0.0;
-      return remarks;
-    }
   std::vector<double> up_to_peak;
   for (std::size_t k = 0; k <= peak; ++k)
     up_to_peak.push_back(-curve[k].lateral_stress);
   std::ranges::nth_element(up_to_peak, up_to_peak.begin() + std::ptrdiff_t(up_to_peak.size() / 2));
   const double median = up_to_peak[up_to_peak.size() / 2];
+  const bool is_small = std::ranges::all_of(curve, [&](const CurveSample& row) {
+    return std::abs(row.lateral_stress) <= noise_share * std::abs(curve[peak].axial_stress);
+  });
   const auto is_held = [&](const CurveSample& row) {
-    return std::abs(-row.lateral_stress - median) <= steady * median;
+    return std::abs(-row.lateral_stress - median) <= (is_small ? steady_if_small : steady) * median;
   };
   std::size_t begin = 0;
   while (begin < peak && !is_held(curve[begin]))
@@ -266,12 +263,20 @@ std::vector<std::string> hold_pressure(TestRecord& record, const std::string& fi
   // Rows that are left out at the beginning fill the cell; a test is loaded after it, row by row.
   const bool is_filled =
     peak >= begin + 2 && (begin == 0 || deviator(curve[begin - 1]) <= steady * deviator(curve[peak]));
-  for (std::size_t k = is_filled ? begin : 0; k <= peak; ++k)
-    if (!is_held(curve[k]) || !(median > 0.0))
-      throw InputError(
-        fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in most rows; once reached it "
-                    "must be the same within 5 % up to the peak, and not negative",
-                    file, -curve[k].lateral_stress / 1e6, k + 1, median / 1e6));
+  std::size_t first_off = is_filled ? begin : 0;
+  while (first_off <= peak && median > 0.0 && is_held(curve[first_off]))
+    ++first_off;
+  if (first_off <= peak)
+    {
+      if (!is_small)
+        throw InputError(
+          fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in most rows; once reached it "
+                      "must be the same within 5 % up to the peak, and not negative",
+                      file, -curve[first_off].lateral_stress / 1e6, first_off + 1, median / 1e6));
+      for (CurveSample& row : curve)
+        row.lateral_stress = 0.0;
+      return remarks;
+    }
   if (begin > 0)
     remarks.push_back(
       fmt::format("{}: the first {} rows, before the confining pressure was reached, are left out", file, begin));

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -211,6 +212,24 @@ TEST_F(LaboratoryCurve, UnderPressureBeginsWhereThePressureIsReached)
   EXPECT_NE(series.problems[2].find("strains are counted from row 1"), std::string::npos) << series.problems[2];
 }
 
+// Both are less than 1 % of the peak stress; what wavers around zero is the noise of the cell.
+TEST_F(LaboratoryCurve, KeepsASmallPressureThatIsHeld)
+{
+  const auto pressure_of = [&](const std::function<double(int)>& cell) {
+    int k = 0;
+    const Series series =
+      read(table("axial_strain [%],axial_stress [MPa],confining_pressure [MPa]", [&](const Row& row) {
+        return fmt::format("{:.9f},{:.9f},{:.6f}", row.strain, row.stress, cell(++k));
+      }));
+    return series.tests.front().record.confining_pressure;
+  };
+  EXPECT_EQ(pressure_of([](int) { return 0.5; }), 0.5e6);
+  EXPECT_NEAR(pressure_of([](const int k) { return 0.5 + 0.04 * std::sin(k); }), 0.5e6, 1e3);
+  EXPECT_EQ(pressure_of([](const int k) { return 0.5 * std::sin(k); }), 0.0);
+  EXPECT_EQ(pressure_of([](const int k) { return 0.3 + 0.3 * std::sin(k); }), 0.0);
+  EXPECT_EQ(pressure_of([](int) { return 0.0; }), 0.0);
+}
+
 // Peaks on a curve of Hoek and Brown of an intact rock, σ_ci = 100 MPa and m = 12: the fit finds both.
 TEST_F(LaboratoryCurve, OfSeveralTestsGivesAnEnvelope)
 {
@@ -264,6 +283,51 @@ TEST(CsvReader, TakesQuotesOffAsRfc4180Says)
   EXPECT_EQ(table.number(1), 3.0);
   EXPECT_EQ(table.line_of_row(), 7u);
   EXPECT_FALSE(table.next());
+}
+
+// 1,234 is 1.234 in German and 1234 in English; any other number of the file may tell which.
+TEST(CsvReader, TakesNoCommaForADecimalSignThatMayStandBetweenThousands)
+{
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& numbers) {
+    return read_csv(folder.write("t.csv", "a;b\n" + numbers + "\n"), "a,b");
+  };
+  for (const char* const clear : {"0,234", "-0,234", "12,34", "1,2345", "1,23", "1234,567", "1,234e2"})
+    EXPECT_EQ(read(fmt::format("1,234;2\n3;{}", clear))[0][0], 1.234) << clear;
+  EXPECT_EQ(read("0,5;1,234")[0][1], 1.234);
+  for (const char* const unclear : {"1,234;2", "5;-12,345\n100,000;7", "1,234;2\n3;0.5"})
+    try
+      {
+        read(unclear);
+        ADD_FAILURE() << unclear;
+      }
+    catch (const InputError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("; write thousands without a comma"), std::string::npos)
+          << error.what();
+      }
+  try
+    {
+      read("5;0\n7;-12,345");
+    }
+  catch (const InputError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("t.csv:3: b: \"-12,345\" may mean -12.345 or -12345"), std::string::npos)
+        << error.what();
+    }
+}
+
+// Quotes counted anew with each line that is added would read some 10^12 characters here, for minutes.
+TEST(CsvReader, FindsThatAQuoteIsNotClosedInOnePass)
+{
+  const TemporaryFolder folder;
+  std::string text = "a,b\n1,\"2\n";
+  for (int k = 0; k < 500000; ++k)
+    text += "1,2\n3,4\n";
+  const auto file = folder.write("t.csv", text);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(read_csv(file, "a,b"), InputError);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
 TEST(CsvReader, FindsColumnsInAnyOrderButNoOthers)
