@@ -3,7 +3,7 @@
 #include "app/input/given_entries.h"
 #include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
-#include "app/input/quantity.h"
+#include "base/table/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "dem/flaws/apply.h"

@@ -1,9 +1,9 @@
 #include "app/input/laboratory_curve.h"
 
-#include "app/input/quantity.h"
-#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/table/csv.h"
+#include "base/table/quantity.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/pictures/plot_style.h"
 
@@ -24,8 +24,6 @@ namespace feldspar
 {
 namespace
 {
-constexpr Dimension strain{"a strain", "1", "0.1 %"};
-constexpr Dimension force{"a force", "N", "200 kN"};
 constexpr double steady = 0.05; // by so much the pressure may wander from its mean up to the peak
 constexpr double noise_share =
   0.01; // of the peak stress: less, and not held, is the noise of a pressure cell in the open
@@ -65,43 +63,13 @@ const std::array<Quantity, 8>& quantities()
   return all;
 }
 
-/// A name as `quantities` has them: "Axial_Strain" and "axial strain" are one.
-std::string plain_name(const std::string_view name)
-{
-  std::string plain = in_small_letters(trim(name));
-  std::replace(plain.begin(), plain.end(), '_', ' ');
-  return plain;
-}
-
-/// Name and unit of a column; beside brackets also "Axial strain / %" and "Axial strain, %" have a unit.
-ColumnTitle title_of_curve(const std::string_view column)
-{
-  const ColumnTitle title = title_of(column);
-  const std::size_t mark = column.find_last_of("/,");
-  if (!title.unit.empty() || mark == std::string_view::npos)
-    return title;
-  // "axial strain mm/mm" has no mark before its unit
-  return {trim(column.substr(0, mark)), trim(column.substr(mark + 1))};
-}
-
 std::optional<Measured> measured_in(const std::string_view column)
 {
-  const std::string name = plain_name(title_of_curve(column).name);
+  const std::string name = plain_name(title_with_mark_of(column).name);
   for (std::size_t q = 0; q < quantities().size(); ++q)
     if (std::ranges::find(quantities()[q].names, name) != quantities()[q].names.end())
       return Measured(q);
   return std::nullopt;
-}
-
-/// A unit in SI.
-double unit_in_si(const std::string_view unit, const Dimension& dimension)
-{
-  if (&dimension == &strain && (unit == "-" || unit == "1" || unit == "mm/mm" || unit == "m/m"))
-    return 1.0;
-  for (const std::string_view micro : {"µε", "με", "microstrain", "µm/m", "um/m"})
-    if (&dimension == &strain && unit == micro)
-      return 1e-6;
-  return parse_quantity(fmt::format("1 {}", unit), dimension);
 }
 
 /// The column of a quantity in the file, and its unit in SI.
@@ -127,7 +95,7 @@ public:
         {
           if (column(*quantity))
             throw refusal(fmt::format("{} is there twice", quantities()[std::size_t(*quantity)].names.front()));
-          const std::string_view unit = title_of_curve(table.name_of(c)).unit;
+          const std::string_view unit = title_with_mark_of(table.name_of(c)).unit;
           units_are_below = units_are_below || unit.empty();
           columns[std::size_t(*quantity)] = {c, unit.empty() ? 0.0 : unit_of(c, unit, *quantity)};
         }

@@ -21,7 +21,7 @@ struct CylinderSize
 /// Reads diameter and height, as in `50, 100 mm`. Throws InputError.
 CylinderSize parse_cylinder_size(std::string_view text);
 
-/// Reads curves measured in a laboratory, each a test of one series: tables (base/csv.h) with axial strain and axial stress,
+/// Reads curves measured in a laboratory, each a test of one series: tables (base/table/csv.h) with axial strain and axial stress,
 /// and lateral strain and confining pressure where they were measured, each with its unit: `axial_stress [MPa]`
 /// (docs/laboratory-data.md). Forces and displacements need the size of the specimen. Compression is positive, so that a
 /// specimen that widens has negative lateral strains. Curves are evaluated as tests of the model are; what a curve lacks has

@@ -1,6 +1,6 @@
 #include "dem/genesis/packing_table.h"
 
-#include "base/csv.h"
+#include "base/table/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"

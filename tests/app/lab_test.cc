@@ -1,6 +1,6 @@
 // The laboratory as a user runs it, on small specimens.
 
-#include "base/csv.h"
+#include "base/table/csv.h"
 #include "tests/app/run_command.h"
 #include "tests/content.h"
 #include "tests/temporary_folder.h"

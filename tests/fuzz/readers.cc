@@ -7,7 +7,7 @@
 #include "app/input/strain_path.h"
 #include "app/programme/reference_body.h"
 #include "base/checksum/seal.h"
-#include "base/csv.h"
+#include "base/table/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/system/hdf5_archive.h"

@@ -1,7 +1,7 @@
 // Tables as testing machines, spreadsheets and programs for statistics write them, and the curves that they hold.
 
 #include "app/input/laboratory_curve.h"
-#include "base/csv.h"
+#include "base/table/csv.h"
 #include "base/input_error.h"
 #include "results/fits/strength_data.h"
 #include "results/fits/strength_envelopes.h"
