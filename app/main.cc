@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
+#include "dem/genesis/packing_export.h"
 #include "feldspar_version.h"
 
 #include <CLI/CLI.hpp>
@@ -59,6 +60,7 @@ public:
     for (const CommandWithInput& command : commands_with_input)
       add_run(command);
     add_extract(*app.get_subcommand("multiscale"));
+    add_packings(*app.get_subcommand("specimen"));
     add_report();
     add_parameters();
     add_texts();
@@ -133,6 +135,19 @@ private:
     for (const char* const other : {"--resume", "--output", "--force"})
       command.get_option(other)->excludes(extract);
     extract->needs(command.get_option("INPUT"));
+  }
+
+  void add_packings(CLI::App& command)
+  {
+    std::vector<std::string> names;
+    for (const PackingForm& form : packing_forms)
+      names.emplace_back(form.name);
+    command
+      .add_option("--packing", common.packings,
+                  "write the grains into packings/ too: yade (lines x y z radius) or lammps (data with bonds)")
+      ->type_name("FORM")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(names).description(""));
   }
 
   void add_threads(CLI::App& command)

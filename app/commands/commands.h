@@ -51,7 +51,8 @@ inline constexpr std::array commands_with_input{
                    "feldspar calibrate rock.prm --output rock\n  feldspar lab rock/best.prm\n"
                    "  feldspar calibrate --resume rock"},
   CommandWithInput{"specimen", "genesis only; writes specimen.h5", run_specimen, false, false,
-                   "feldspar specimen granite.prm"},
+                   "feldspar specimen granite.prm\n"
+                   "  feldspar specimen granite.prm --packing yade --packing lammps"},
   CommandWithInput{"contact", "one contact along a displacement path; writes contact.csv", run_contact, false, true,
                    "feldspar contact contact.prm"}};
 

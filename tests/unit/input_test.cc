@@ -50,6 +50,8 @@ subsection Specimen
   set Cells across = 1
   set Cells along = 1
   set Packing file = grains.txt
+  set Packing unit = 1 mm
+  set Packing shift = 27, 54 mm
   set Specimen file = none
   set Joint law = flat joint
 end
@@ -333,6 +335,9 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.specimen.bulk_density, 2650.0);
   EXPECT_EQ(input.specimen.packing_stress_ratio, 4e-4);
   EXPECT_EQ(input.specimen.packing_file, (folder.path() / "grains.txt").string());
+  EXPECT_DOUBLE_EQ(input.specimen.packing_unit, 1e-3);
+  EXPECT_EQ(input.specimen.packing_shift.size(), 2u);
+  EXPECT_DOUBLE_EQ(input.specimen.packing_shift.back(), 0.054);
   EXPECT_EQ(input.specimen.specimen_file, "");
 
   EXPECT_EQ(input.flat_joint.n_segments, 3u);
