@@ -73,7 +73,8 @@ struct ReportOptions
 {
   std::vector<std::filesystem::path> result_folders;
   std::vector<std::filesystem::path> curves; ///< measured in a laboratory
-  std::string curve_size;                    ///< diameter and height of their cylinders; empty: not given
+  std::vector<std::string> curve_sizes;      ///< of their specimens; one for all, or one for each
+  std::vector<std::string> curve_tests;      ///< names of tests; the same
   std::optional<std::filesystem::path> reference;
   std::optional<std::filesystem::path> output;
   bool film = false;
