@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
+#include "dem/genesis/packing_export.h"
 #include "feldspar_version.h"
 
 #include <CLI/CLI.hpp>
@@ -59,6 +60,7 @@ public:
     for (const CommandWithInput& command : commands_with_input)
       add_run(command);
     add_extract(*app.get_subcommand("multiscale"));
+    add_packings(*app.get_subcommand("specimen"));
     add_report();
     add_parameters();
     add_texts();
@@ -135,6 +137,19 @@ private:
     extract->needs(command.get_option("INPUT"));
   }
 
+  void add_packings(CLI::App& command)
+  {
+    std::vector<std::string> names;
+    for (const PackingForm& form : packing_forms)
+      names.emplace_back(form.name);
+    command
+      .add_option("--packing", common.packings,
+                  "write the grains into packings/ too: yade (lines x y z radius) or lammps (data with bonds)")
+      ->type_name("FORM")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(names).description(""));
+  }
+
   void add_threads(CLI::App& command)
   {
     command.add_option("--threads", n_threads, "how many to use (default: all cores)")
@@ -150,11 +165,23 @@ private:
     command.add_option("--curve", report.curves, "a stress-strain curve measured in a laboratory; may be repeated")
       ->type_name("CSV")
       ->allow_extra_args(false);
+    CLI::Option* const curve = command.get_option("--curve");
     command
-      .add_option("--curve-size", report.curve_size,
-                  "diameter and height of its cylinder, for forces and displacements: \"50, 100 mm\"")
+      .add_option(
+        "--curve-size", report.curve_sizes,
+        "diameter and height (of a disc thickness) of its specimen, for forces and displacements: \"50, 100 mm\"; "
+        "once for all curves, or once for each")
       ->type_name("SIZE")
-      ->needs(command.get_option("--curve"));
+      ->allow_extra_args(false)
+      ->needs(curve);
+    command
+      .add_option(
+        "--curve-test", report.curve_tests,
+        "the test of a curve: direct_tension, brazilian, or one of compression (default); once for all curves, "
+        "or once for each")
+      ->type_name("TEST")
+      ->allow_extra_args(false)
+      ->needs(curve);
     command
       .add_option("--reference", report.reference, "figures of the rock (default: those the runs were set beside)")
       ->type_name("JSON");
@@ -169,6 +196,7 @@ private:
     command.callback([this] { chosen = [this] { return run_report(report); }; });
     add_examples(command, "feldspar report granite slate --reference rock.json\n"
                           "  feldspar report granite --curve core.csv\n"
+                          "  feldspar report --curve disc.csv --curve-test brazilian --curve-size '50, 25 mm'\n"
                           "  feldspar report granite --film");
   }
 

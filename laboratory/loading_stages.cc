@@ -1,8 +1,8 @@
 #include "laboratory/loading_stages.h"
 
-#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/table/csv.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -24,12 +24,19 @@ constexpr double largest_stress = 1e11;
 /// Twelve days [s]; grains take some 1e14 steps for it, a sample of finite elements as few as its rate says.
 constexpr double longest_hold = 1e6;
 
-void check_columns(const CsvReader& table, const std::string& file)
+/// The places of the columns that a table has, which must be of these.
+std::array<std::optional<std::size_t>, columns.size()> places_in(CsvReader& table, const std::string& file)
 {
-  for (const auto& name : table.header())
-    if (!name.empty() && std::find(columns.begin(), columns.end(), name) == columns.end())
-      throw InputError(fmt::format("{}:1: {} is no column of a loading table; they are {}", file, in_quotes(name),
+  std::array<std::optional<std::size_t>, columns.size()> places;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    places[k] = table.find_in_si(columns[k]);
+  for (std::size_t c = 0; c < table.header().size(); ++c)
+    if (!table.name_of(c).empty() && std::ranges::find(places, c) == places.end())
+      throw InputError(fmt::format("{}:{}: {} is no column of a loading table; they are {}, or have their unit in "
+                                   "brackets, as in \"axial_stress [MPa]\"",
+                                   file, table.line_of_header(), in_quotes(table.name_of(c)),
                                    fmt::join(columns, ", ")));
+  return places;
 }
 
 } // namespace
@@ -90,7 +97,7 @@ std::vector<Entry<TestParameters>> loading_table_entries()
   return within_tests<P>({entry::file(
     "Loading table", &P::file,
     "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "
-    "confining_pressure_Pa, strain_rate_per_s, lateral_strain; compression positive; on a sample of finite elements "
+    "confining_pressure_Pa, strain_rate_per_s, lateral_strain, or with units, as in axial_stress [MPa]; compression positive; on a sample of finite elements "
     "rates only say how long a strain takes beside a hold",
     as_basic(of_platens))});
 }
@@ -99,22 +106,22 @@ std::vector<LoadingStage> read_loading_stages(const std::filesystem::path& path)
 {
   const std::string file = path.string();
   CsvReader table(path);
-  check_columns(table, file);
+  const auto places = places_in(table, file);
   std::vector<LoadingStage> stages;
   while (table.next())
     {
-      const auto cell = [&](const std::string_view column) -> std::optional<double> {
-        if (!table.has(column) || table.text(table.place(column)).empty())
+      const auto cell = [&](const std::size_t column) -> std::optional<double> {
+        if (!places[column] || table.text(*places[column]).empty())
           return std::nullopt;
-        return table.number(table.place(column));
+        return table.number(*places[column]);
       };
       LoadingStage stage;
-      stage.axial_strain = cell(columns[0]);
-      stage.axial_stress = cell(columns[1]);
-      stage.duration = cell(columns[2]);
-      stage.confining_pressure = cell(columns[3]).value_or(stages.empty() ? 0.0 : stages.back().confining_pressure);
-      stage.strain_rate = cell(columns[4]);
-      stage.lateral_strain = cell(columns[5]);
+      stage.axial_strain = cell(0);
+      stage.axial_stress = cell(1);
+      stage.duration = cell(2);
+      stage.confining_pressure = cell(3).value_or(stages.empty() ? 0.0 : stages.back().confining_pressure);
+      stage.strain_rate = cell(4);
+      stage.lateral_strain = cell(5);
       if (const std::string what = objection(stage, stages.empty() ? nullptr : &stages.back()); !what.empty())
         throw InputError(fmt::format("{}:{}: stage {}: {}", file, table.line_of_row(), stages.size() + 1, what));
       stages.push_back(stage);

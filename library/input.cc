@@ -1,6 +1,6 @@
 #include "app/input/parameter_table.h"
-#include "app/input/quantity.h"
 #include "app/programme/checks.h"
+#include "base/table/quantity.h"
 #include "feldspar_version.h"
 #include "library/states.h"
 

@@ -51,7 +51,8 @@ inline constexpr std::array commands_with_input{
                    "feldspar calibrate rock.prm --output rock\n  feldspar lab rock/best.prm\n"
                    "  feldspar calibrate --resume rock"},
   CommandWithInput{"specimen", "genesis only; writes specimen.h5", run_specimen, false, false,
-                   "feldspar specimen granite.prm"},
+                   "feldspar specimen granite.prm\n"
+                   "  feldspar specimen granite.prm --packing yade --packing lammps"},
   CommandWithInput{"contact", "one contact along a displacement path; writes contact.csv", run_contact, false, true,
                    "feldspar contact contact.prm"}};
 
@@ -72,7 +73,8 @@ struct ReportOptions
 {
   std::vector<std::filesystem::path> result_folders;
   std::vector<std::filesystem::path> curves; ///< measured in a laboratory
-  std::string curve_size;                    ///< diameter and height of their cylinders; empty: not given
+  std::vector<std::string> curve_sizes;      ///< of their specimens; one for all, or one for each
+  std::vector<std::string> curve_tests;      ///< names of tests; the same
   std::optional<std::filesystem::path> reference;
   std::optional<std::filesystem::path> output;
   bool film = false;

@@ -4,8 +4,8 @@
 #include "app/input/parameter_table.h"
 #include "app/run/output_folder.h"
 #include "app/screen/print_result.h"
-#include "base/csv.h"
 #include "base/input_error.h"
+#include "base/table/csv.h"
 #include "base/whole_file.h"
 #include "dem/laws/joint_laws.h"
 

@@ -14,11 +14,12 @@ namespace feldspar
 {
 int run_report(const ReportOptions& options)
 {
-  ReportOrder order{options.result_folders, options.curves, options.reference, {}};
+  ReportOrder order{options.result_folders,
+                    measured_curves(options.curves, options.curve_sizes, options.curve_tests),
+                    options.reference,
+                    {}};
   if (order.result_folders.empty() && order.curves.empty())
     throw InputError("report needs the folders of results, or --curve with a measured one; see feldspar report --help");
-  if (!options.curve_size.empty())
-    order.curve_size = parse_cylinder_size(options.curve_size);
   // The report of one folder goes into it, beside its results.
   if (options.film)
     check_film_is_possible(); // before anything is written

@@ -2,10 +2,10 @@
 
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
-#include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
+#include "base/table/quantity.h"
 
 #include <fmt/format.h>
 

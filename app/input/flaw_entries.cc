@@ -3,9 +3,9 @@
 #include "app/input/entry_parameter.h"
 #include "app/input/maps/traces.h"
 #include "app/input/parameter_table.h"
-#include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/table/quantity.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,9 +3,9 @@
 #include "app/input/given_entries.h"
 #include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
-#include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/table/quantity.h"
 #include "dem/flaws/apply.h"
 #include "dem/flaws/smooth_planes.h"
 #include "dem/lab/surroundings.h"
@@ -211,6 +211,9 @@ void check_specimen(const Input& input, const GivenEntries& values)
         throw values.error("Specimen", "Specimen file", "is one specimen; it goes with one seed and no variants");
       return; // files bring their own radii
     }
+  if (specimen.packing_unit != SpecimenParameters().packing_unit || !specimen.packing_shift.empty())
+    throw values.error("Specimen", specimen.packing_shift.empty() ? "Packing unit" : "Packing shift",
+                       "needs a Packing file, whose grains it brings to their place");
   // This check also catches a slip of the unit before it fills the memory.
   constexpr double most_grains = 1e7;
   if (const double n_grains = expected_grains(specimen); n_grains > most_grains)

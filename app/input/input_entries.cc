@@ -2,9 +2,9 @@
 
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
-#include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/table/quantity.h"
 #include "results/quantities.h"
 
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <numbers>
 #include <set>
 #include <system_error>
@@ -57,9 +58,9 @@ std::vector<TestKind> read_tests(const std::string_view text)
 
 std::vector<double> read_confinements(const std::string_view text)
 {
-  if (split_at_commas(text).size() > most_confinements)
-    throw InputError(fmt::format("must be at most {} pressures", most_confinements));
   const std::vector<double> pressures = parse_quantities(text, stress);
+  if (pressures.size() > most_confinements)
+    throw InputError(fmt::format("must be at most {} pressures", most_confinements));
   for (auto p = pressures.begin(); p != pressures.end(); ++p)
     {
       if (*p <= 0.0)
@@ -108,8 +109,9 @@ std::vector<std::vector<std::string>> read_variant_values(const std::string_view
   if (text != none)
     for (const std::string_view list : split_at("||", text))
       {
-        const auto pieces = split_at(";", list);
-        values.emplace_back(pieces.begin(), pieces.end());
+        auto& of_entry = values.emplace_back();
+        for (const std::string_view piece : split_at(";", list))
+          std::ranges::move(values_of_range(piece), std::back_inserter(of_entry));
       }
   return values;
 }
@@ -127,6 +129,12 @@ std::vector<std::uint64_t> read_seeds(const std::string_view text)
   std::vector<std::uint64_t> seeds;
   for (const std::string_view piece : split_at_commas(text))
     {
+      if (piece.find(" step ") != std::string_view::npos)
+        {
+          for (const std::string& seed : values_of_range(piece))
+            seeds.push_back(parse_count(seed));
+          continue;
+        }
       const std::size_t dots = piece.find("..");
       if (const std::size_t dash = piece.find('-'); dash != std::string_view::npos && dash > 0)
         throw InputError(fmt::format("{}: a range is written with two dots, {}..{}", in_quotes(piece),
@@ -239,7 +247,8 @@ std::vector<Entry<Input>> test_list_entries()
      Entry<Input>::Text{"MPa", "> 0 MPa each",
                         [](Input& input, const std::string_view text) { input.confinements = read_confinements(text); },
                         [](const Input& input) { return write_confinements(input.confinements); }},
-     "pressures of the triaxial tests, normal stresses of direct shear, separated by commas",
+     "pressures of the triaxial tests, normal stresses of direct shear, separated by commas, and ranges such as 10..60 MPa "
+     "step 10",
      {.basic = true}}};
 }
 
@@ -296,7 +305,8 @@ std::vector<Entry<VariantParameters>> variant_entries()
      Entry<P>::Text{"", "none, or values of each entry",
                     [](P& wanted, const std::string_view text) { wanted.values = read_variant_values(text); },
                     [](const P& wanted) { return write_variant_values(wanted.values); }},
-     "values separated by semicolons; the lists of several entries by two upright bars, ||",
+     "values separated by semicolons, and ranges such as 10..60 MPa step 10; the lists of several entries by two upright "
+     "bars, ||",
      {.basic = true}},
     entry::choice("Combine", &P::in_step, {{"grid", false}, {"in step", true}},
                   "grid: each value of an entry with each of the others; in step: the first values of all entries, "
@@ -309,7 +319,7 @@ std::vector<Entry<VariantParameters>> variant_entries()
 Entry<Input> seeds_entry()
 {
   return {"Seeds",
-          Entry<Input>::Text{"", "non-negative integers and ranges, such as 1, 5..7",
+          Entry<Input>::Text{"", "non-negative integers and ranges, such as 1, 5..7, 10..20 step 5",
                              [](Input& input, const std::string_view text) { input.seeds = read_seeds(text); },
                              [](const Input& input) { return fmt::format("{}", fmt::join(input.seeds, ", ")); }},
           "one specimen for each seed",

@@ -1,9 +1,9 @@
 #include "app/input/laboratory_curve.h"
 
-#include "app/input/quantity.h"
-#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/table/csv.h"
+#include "base/table/quantity.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/pictures/plot_style.h"
 
@@ -24,10 +24,10 @@ namespace feldspar
 {
 namespace
 {
-constexpr Dimension strain{"a strain", "1", "0.1 %"};
-constexpr Dimension force{"a force", "N", "200 kN"};
-constexpr double steady = 0.05;      // by so much the pressure may wander from its mean up to the peak
-constexpr double noise_share = 0.01; // of the peak stress: less is the noise of a pressure cell in the open
+constexpr double steady = 0.05; // by so much the pressure may wander from its mean up to the peak
+constexpr double noise_share =
+  0.01; // of the peak stress: less, and not held, is the noise of a pressure cell in the open
+constexpr double steady_if_small = 0.2; // the same of so small a pressure, whose wandering changes no strength
 
 /// Quantities that a curve may have; compression positive, a specimen that widens has negative lateral strains.
 enum class Measured : std::size_t
@@ -52,54 +52,27 @@ struct Quantity
 const std::array<Quantity, 8>& quantities()
 {
   static const std::array<Quantity, 8> all{
-    Quantity{&strain, {"axial strain", "strain"}},
-    Quantity{&length, {"axial displacement", "displacement", "shortening"}},
-    Quantity{&stress, {"axial stress", "stress"}},
+    Quantity{&strain, {"axial strain", "strain", "compressive strain", "tensile strain"}},
+    Quantity{&length, {"axial displacement", "displacement", "compressive extension", "shortening", "elongation"}},
+    Quantity{&stress,
+             {"axial stress", "stress", "compressive stress", "tensile stress", "splitting stress",
+              "splitting tensile stress", "indirect tensile stress", "brazilian stress"}},
     Quantity{&stress, {"deviator stress", "deviatoric stress", "differential stress"}},
-    Quantity{&force, {"axial force", "axial load", "force", "load"}},
+    Quantity{&force,
+             {"axial force", "axial load", "force", "load", "compressive load", "tensile force", "tensile load"}},
     Quantity{&strain, {"lateral strain", "radial strain", "transverse strain", "circumferential strain"}},
     Quantity{&strain, {"volumetric strain"}},
     Quantity{&stress, {"confining pressure", "confining stress", "cell pressure", "confinement"}}};
   return all;
 }
 
-/// A name as `quantities` has them: "Axial_Strain" and "axial strain" are one.
-std::string plain_name(const std::string_view name)
-{
-  std::string plain = in_small_letters(trim(name));
-  std::replace(plain.begin(), plain.end(), '_', ' ');
-  return plain;
-}
-
-/// Name and unit of a column; beside brackets also "Axial strain / %" and "Axial strain, %" have a unit.
-ColumnTitle title_of_curve(const std::string_view column)
-{
-  const ColumnTitle title = title_of(column);
-  const std::size_t mark = column.find_last_of("/,");
-  if (!title.unit.empty() || mark == std::string_view::npos)
-    return title;
-  // "axial strain mm/mm" has no mark before its unit
-  return {trim(column.substr(0, mark)), trim(column.substr(mark + 1))};
-}
-
 std::optional<Measured> measured_in(const std::string_view column)
 {
-  const std::string name = plain_name(title_of_curve(column).name);
+  const std::string name = plain_name(title_with_mark_of(column).name);
   for (std::size_t q = 0; q < quantities().size(); ++q)
     if (std::ranges::find(quantities()[q].names, name) != quantities()[q].names.end())
       return Measured(q);
   return std::nullopt;
-}
-
-/// A unit in SI.
-double unit_in_si(const std::string_view unit, const Dimension& dimension)
-{
-  if (&dimension == &strain && (unit == "-" || unit == "1" || unit == "mm/mm" || unit == "m/m"))
-    return 1.0;
-  for (const std::string_view micro : {"µε", "με", "microstrain", "µm/m", "um/m"})
-    if (&dimension == &strain && unit == micro)
-      return 1e-6;
-  return parse_quantity(fmt::format("1 {}", unit), dimension);
 }
 
 /// The column of a quantity in the file, and its unit in SI.
@@ -125,7 +98,7 @@ public:
         {
           if (column(*quantity))
             throw refusal(fmt::format("{} is there twice", quantities()[std::size_t(*quantity)].names.front()));
-          const std::string_view unit = title_of_curve(table.name_of(c)).unit;
+          const std::string_view unit = title_with_mark_of(table.name_of(c)).unit;
           units_are_below = units_are_below || unit.empty();
           columns[std::size_t(*quantity)] = {c, unit.empty() ? 0.0 : unit_of(c, unit, *quantity)};
         }
@@ -151,7 +124,30 @@ public:
     return names;
   }
 
+  /// The kind of test that the name of its stress or force says, other than compression.
+  std::optional<TestKind> kind() const
+  {
+    for (const Measured quantity : {Measured::axial_stress, Measured::axial_force})
+      if (const auto& place = column(quantity))
+        {
+          const std::string title = plain_name(table.name_of(place->column));
+          const auto has_word = [&](const std::string_view word) { return title.find(word) != std::string::npos; };
+          if (has_word("splitting") || has_word("indirect") || has_word("brazilian"))
+            return brazilian.kind;
+          if (has_word("tensile"))
+            return direct_tension.kind;
+        }
+    return std::nullopt;
+  }
+
   bool has(const Measured quantity) const { return column(quantity).has_value(); }
+
+  /// Returns whether forces or displacements stand for stresses or strains.
+  bool needs_size() const
+  {
+    return !has(Measured::axial_strain) || (!has(Measured::axial_stress) && !has(Measured::deviator));
+  }
+
   bool next() { return table.next(); }
 
   /// Value in the row; none where the file does not have the quantity.
@@ -198,25 +194,30 @@ private:
 };
 
 /// Reads the rows; stresses and strains tension positive, a lateral strain that is not there is NaN.
-std::vector<CurveSample> rows_of(CurveTable& table, const std::optional<CylinderSize>& size)
+std::vector<CurveSample> rows_of(CurveTable& table, const std::optional<CylinderSize>& size, const bool is_disc)
 {
   using enum Measured;
   if (!table.has(axial_strain) && !table.has(axial_displacement))
     throw table.refusal("there is no column axial_strain, nor axial_displacement");
   if (!table.has(axial_stress) && !table.has(deviator) && !table.has(axial_force))
     throw table.refusal("there is no column axial_stress, nor axial_force");
-  if (!size && (!table.has(axial_strain) || (!table.has(axial_stress) && !table.has(deviator))))
+  if (!size && table.needs_size())
     throw table.refusal("forces and displacements need the size of the specimen, as --curve-size \"50, 100 mm\" "
                         "gives diameter and height");
+  // The load acts on a section of the cylinder, or splits the disc along its diameter: 2P/(πDt).
+  const double area = !size     ? 0.0
+                      : is_disc ? 0.5 * std::numbers::pi * size->diameter * size->height
+                                : 0.25 * std::numbers::pi * size->diameter * size->diameter;
+  const double loaded_length = !size ? 0.0 : is_disc ? size->diameter : size->height;
   std::vector<CurveSample> rows;
   while (table.next())
     {
       const double pressure = table.value(confining_pressure).value_or(0.0);
       const double shortening =
-        table.has(axial_strain) ? *table.value(axial_strain) : *table.value(axial_displacement) / size->height;
+        table.has(axial_strain) ? *table.value(axial_strain) : *table.value(axial_displacement) / loaded_length;
       const double pressed = table.has(axial_stress) ? *table.value(axial_stress)
                              : table.has(deviator)   ? *table.value(deviator) + pressure
-                                                     : *table.value(axial_force) / size->section();
+                                                     : *table.value(axial_force) / area;
       double lateral = std::numeric_limits<double>::quiet_NaN();
       if (table.has(lateral_strain))
         lateral = *table.value(lateral_strain);
@@ -233,6 +234,31 @@ std::vector<CurveSample> rows_of(CurveTable& table, const std::optional<Cylinder
   return rows;
 }
 
+/// Brings stresses and strains of a test in tension or on a disc to their signs, whichever way the file has them: the load is
+/// that of the test, and rock elongates where it is pulled.
+void turn_to_sense(TestRecord& record, const std::string& file)
+{
+  auto& curve = record.curve;
+  const CurveSample top =
+    *std::ranges::max_element(curve, {}, [](const CurveSample& row) { return std::abs(row.axial_stress); });
+  if (std::ranges::any_of(curve, [&](const CurveSample& row) {
+        return std::abs(row.lateral_stress) > noise_share * std::abs(top.axial_stress);
+      }))
+    throw InputError(fmt::format("{}: has a confining_pressure, which {} has not; --curve-test says which test it is",
+                                 file, record.kind.name));
+  const double of_stress = record.kind.stress(top) < 0.0 ? -1.0 : 1.0;
+  const double of_strain = record.kind.strain(top) < record.kind.strain(curve.front()) ? -1.0 : 1.0;
+  for (CurveSample& row : curve)
+    {
+      row.axial_stress *= of_stress;
+      row.lateral_stress = 0.0;
+      for (double CurveSample::*const component :
+           {&CurveSample::axial_strain, &CurveSample::gauge_axial_strain, &CurveSample::gauge_lateral_strain,
+            &CurveSample::gauge_volumetric_strain})
+        row.*component *= of_strain;
+    }
+}
+
 /// Brings the pressure of a curve to the one of its test: rows before it was reached and after it was lost are left out.
 /// Returns a sentence for each part that was, without its full stop.
 std::vector<std::string> hold_pressure(TestRecord& record, const std::string& file)
@@ -240,21 +266,16 @@ std::vector<std::string> hold_pressure(TestRecord& record, const std::string& fi
   auto& curve = record.curve;
   std::vector<std::string> remarks;
   const std::size_t peak = std::size_t(std::ranges::min_element(curve, {}, &CurveSample::axial_stress) - curve.begin());
-  const double highest = std::abs(curve[peak].axial_stress);
-  if (std::ranges::all_of(
-        curve, [&](const CurveSample& row) { return std::abs(row.lateral_stress) <= noise_share * highest; }))
-    {
-      for (CurveSample& row : curve)
-        row.lateral_stress = 0.0;
-      return remarks;
-    }
   std::vector<double> up_to_peak;
   for (std::size_t k = 0; k <= peak; ++k)
     up_to_peak.push_back(-curve[k].lateral_stress);
   std::ranges::nth_element(up_to_peak, up_to_peak.begin() + std::ptrdiff_t(up_to_peak.size() / 2));
   const double median = up_to_peak[up_to_peak.size() / 2];
+  const bool is_small = std::ranges::all_of(curve, [&](const CurveSample& row) {
+    return std::abs(row.lateral_stress) <= noise_share * std::abs(curve[peak].axial_stress);
+  });
   const auto is_held = [&](const CurveSample& row) {
-    return std::abs(-row.lateral_stress - median) <= steady * median;
+    return std::abs(-row.lateral_stress - median) <= (is_small ? steady_if_small : steady) * median;
   };
   std::size_t begin = 0;
   while (begin < peak && !is_held(curve[begin]))
@@ -266,12 +287,20 @@ std::vector<std::string> hold_pressure(TestRecord& record, const std::string& fi
   // Rows that are left out at the beginning fill the cell; a test is loaded after it, row by row.
   const bool is_filled =
     peak >= begin + 2 && (begin == 0 || deviator(curve[begin - 1]) <= steady * deviator(curve[peak]));
-  for (std::size_t k = is_filled ? begin : 0; k <= peak; ++k)
-    if (!is_held(curve[k]) || !(median > 0.0))
-      throw InputError(
-        fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in most rows; once reached it "
-                    "must be the same within 5 % up to the peak, and not negative",
-                    file, -curve[k].lateral_stress / 1e6, k + 1, median / 1e6));
+  std::size_t first_off = is_filled ? begin : 0;
+  while (first_off <= peak && median > 0.0 && is_held(curve[first_off]))
+    ++first_off;
+  if (first_off <= peak)
+    {
+      if (!is_small)
+        throw InputError(
+          fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in most rows; once reached it "
+                      "must be the same within 5 % up to the peak, and not negative",
+                      file, -curve[first_off].lateral_stress / 1e6, first_off + 1, median / 1e6));
+      for (CurveSample& row : curve)
+        row.lateral_stress = 0.0;
+      return remarks;
+    }
   if (begin > 0)
     remarks.push_back(
       fmt::format("{}: the first {} rows, before the confining pressure was reached, are left out", file, begin));
@@ -332,12 +361,14 @@ std::string count_strains_from_first_load(TestRecord& record, const std::size_t 
   return fmt::format(
     "{}: strains are counted from row {} below the header, where the load begins; {:.4g} % of axial and "
     "{:.4g} % of lateral strain were taken off every row{}",
-    file, start + 1, -100.0 * zero.axial_strain, -100.0 * lateral, offset);
+    file, start + 1, 100.0 * record.kind.sign * zero.axial_strain, 100.0 * record.kind.sign * lateral + 0.0 /* no -0 */,
+    offset);
 }
+
 /// Reads a curve as a finished test; remarks go to `remarks`.
-FinishedTest read_curve_of_test(const std::filesystem::path& file, const std::optional<CylinderSize>& size,
-                                std::vector<std::string>& remarks)
+FinishedTest read_curve_of_test(const MeasuredCurve& measured, std::vector<std::string>& remarks)
 {
+  const std::filesystem::path& file = measured.file;
   const std::string shown = printable(file.string());
   CurveTable table(file);
   if (const auto unread = table.unread(); !unread.empty())
@@ -346,36 +377,58 @@ FinishedTest read_curve_of_test(const std::filesystem::path& file, const std::op
   TestRecord& record = test.record;
   const std::string name = plot::file_name(file.stem().string());
   test.name = test.group = name.empty() ? "measured" : name;
-  record.curve = rows_of(table, size);
+  const std::optional<TestKind> named = measured.kind ? measured.kind : table.kind();
+  const bool is_pressed = !named || named->envelope_role == EnvelopeRole::compression;
+  const bool is_disc = named && *named == brazilian.kind;
+  if (!is_disc && table.needs_size() && measured.size && measured.size->height < measured.size->diameter)
+    throw InputError(
+      fmt::format("{}: a cylinder that is shorter than its diameter has no uniform stress; a disc that is "
+                  "split needs --curve-test brazilian",
+                  file.string()));
+  record.curve = rows_of(table, measured.size, is_disc);
   if (record.curve.empty())
     throw InputError(fmt::format("{}: there is no row below the header", file.string()));
-  std::ranges::move(hold_pressure(record, shown), std::back_inserter(remarks));
   auto& curve = record.curve;
-  const double least_stress = std::ranges::min(curve, {}, &CurveSample::axial_stress).axial_stress; // tension positive
-  if (-least_stress <= record.confining_pressure && record.confining_pressure > 0.0)
-    throw InputError(fmt::format("{}: axial_stress reaches {:g} MPa only, under a confining_pressure of {:g} MPa; it "
-                                 "must be the whole axial stress; give the part beyond the pressure as deviator_stress",
-                                 file.string(), -least_stress / 1e6, record.confining_pressure / 1e6));
-  record.kind = record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
+  if (is_pressed)
+    {
+      std::ranges::move(hold_pressure(record, shown), std::back_inserter(remarks));
+      const double least_stress =
+        std::ranges::min(curve, {}, &CurveSample::axial_stress).axial_stress; // tension positive
+      if (-least_stress <= record.confining_pressure && record.confining_pressure > 0.0)
+        throw InputError(
+          fmt::format("{}: axial_stress reaches {:g} MPa only, under a confining_pressure of {:g} MPa; it "
+                      "must be the whole axial stress; give the part beyond the pressure as "
+                      "deviator_stress",
+                      file.string(), -least_stress / 1e6, record.confining_pressure / 1e6));
+      record.kind = record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
+    }
+  else
+    {
+      record.kind = *named;
+      turn_to_sense(record, file.string());
+    }
   // Laboratories choose where a curve ends: at the peak, right after it, or when it has risen again.
-  record.peak_demands = {.least_fall = 0.0, .may_end_rising = true};
+  record.peak_demands = {.may_end_rising = true};
   const auto peak = peak_row(record);
   if (!peak)
-    throw InputError(fmt::format("{}: axial_stress never rises; compression is positive", file.string()));
-  if (curve[*peak].axial_strain >= curve.front().axial_strain)
+    throw InputError(fmt::format("{}: axial_stress never rises; compression is positive, and a specimen that is "
+                                 "pulled needs --curve-test direct_tension",
+                                 file.string()));
+  if (record.kind.strain(curve[*peak]) <= record.kind.strain(curve.front()))
     throw InputError(
       fmt::format("{}: axial_strain does not grow up to the peak; shortening is positive", file.string()));
-  // Elastic rock widens when it is pressed: positive lateral strains would pass as a negative Poisson's ratio.
-  for (std::size_t k = 0; k <= *peak; ++k)
-    if (curve[k].axial_stress <=
-        0.5 * (curve[*peak].axial_stress - curve.front().axial_stress) + curve.front().axial_stress)
-      {
-        if (curve[k].gauge_lateral_strain <= curve.front().gauge_lateral_strain)
-          throw InputError(fmt::format("{}: lateral_strain grows with the load at half of the peak; compression is "
-                                       "positive, so a specimen that widens has negative lateral strains",
-                                       file.string()));
-        break;
-      }
+  // Elastic rock widens when it is pressed and narrows when it is pulled: other lateral strains would pass as a negative
+  // Poisson's ratio.
+  const auto half_of_peak = std::ranges::find_if(curve, [&](const CurveSample& row) {
+    return record.kind.stress(row) >= 0.5 * (record.kind.stress(curve[*peak]) + record.kind.stress(curve.front()));
+  });
+  if (record.kind.has_uniform_stress &&
+      record.kind.sign * (half_of_peak->gauge_lateral_strain - curve.front().gauge_lateral_strain) >= 0.0)
+    throw InputError(
+      fmt::format("{}: lateral_strain grows with the load at half of the peak, as the axial strain does; "
+                  "rock widens where it is pressed and narrows where it is pulled, so that both have "
+                  "other signs",
+                  file.string()));
   const bool ends_at_peak = *peak + 1 == curve.size();
   if (ends_at_peak)
     remarks.push_back(fmt::format("{}: the record ends at its highest stress, which is taken as the strength", shown));
@@ -401,8 +454,6 @@ FinishedTest read_curve_of_test(const std::filesystem::path& file, const std::op
 }
 } // namespace
 
-double CylinderSize::section() const { return std::numbers::pi / 4.0 * diameter * diameter; }
-
 CylinderSize parse_cylinder_size(const std::string_view text)
 {
   std::vector<double> sizes;
@@ -420,15 +471,42 @@ CylinderSize parse_cylinder_size(const std::string_view text)
   return {sizes[0], sizes[1]};
 }
 
-Series read_laboratory_curves(const std::vector<std::filesystem::path>& files, const std::optional<CylinderSize>& size)
+std::vector<MeasuredCurve> measured_curves(const std::vector<std::filesystem::path>& files,
+                                           const std::vector<std::string>& sizes, const std::vector<std::string>& tests)
 {
-  Series series{files.size() == 1 ? files.front().filename().string() : "measured curves",
+  const auto kinds = {uniaxial_compression.kind, triaxial_compression.kind, direct_tension.kind, brazilian.kind};
+  for (const auto& [option, given] : {std::pair("--curve-size", sizes.size()), {"--curve-test", tests.size()}})
+    if (given > 1 && given != files.size())
+      throw InputError(
+        fmt::format("{} is given {} times for {} curves; give it once for all or once for each, in their "
+                    "order",
+                    option, given, files.size()));
+  std::vector<MeasuredCurve> curves;
+  for (std::size_t k = 0; k < files.size(); ++k)
+    {
+      MeasuredCurve& curve = curves.emplace_back(files[k]);
+      if (!sizes.empty())
+        curve.size = parse_cylinder_size(sizes[sizes.size() > 1 ? k : 0]);
+      if (tests.empty())
+        continue;
+      const std::string& name = tests[tests.size() > 1 ? k : 0];
+      const auto kind = std::ranges::find(kinds, name, &TestKind::name);
+      if (kind == kinds.end())
+        throw InputError(fmt::format("--curve-test {}: must be one of {}", excerpt(name), names(kinds)));
+      curve.kind = *kind;
+    }
+  return curves;
+}
+
+Series read_laboratory_curves(const std::vector<MeasuredCurve>& curves)
+{
+  Series series{curves.size() == 1 ? curves.front().file.filename().string() : "measured curves",
                 SeriesKind::laboratory_curve,
                 {},
                 {},
                 {}};
-  for (const auto& file : files)
-    series.tests.push_back(read_curve_of_test(file, size, series.problems));
+  for (const MeasuredCurve& curve : curves)
+    series.tests.push_back(read_curve_of_test(curve, series.problems));
   return series;
 }
 } // namespace feldspar

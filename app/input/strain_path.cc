@@ -1,8 +1,8 @@
 #include "app/input/strain_path.h"
 
-#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/table/csv.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -49,35 +49,41 @@ std::vector<PathLeg<dim>> legs_along_direction(const StrainPathParameters& path)
   return legs;
 }
 
-/// Returns which columns are stresses. Each component has one column, in the order of Voigt.
+/// The column of a component, and whether it is a stress.
+struct PathColumn
+{
+  std::size_t place = 0;
+  bool is_stress = false;
+};
+
+/// The columns of the components, in the order of Voigt.
 template <int dim>
-std::array<bool, n_voigt<dim>> stress_columns(const std::string& file, const std::vector<std::string_view>& columns)
+std::array<PathColumn, n_voigt<dim>> path_columns(CsvReader& table, const std::string& file)
 {
   std::string strains, names;
+  std::array<PathColumn, n_voigt<dim>> columns;
+  bool good = table.header().size() == std::size_t(n_voigt<dim>);
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
-      strains += fmt::format("{}strain_{}", k > 0 ? "," : "", voigt_name<dim>(k));
-      names += fmt::format("{}{}", k > 0 ? ", " : "", voigt_name<dim>(k));
-    }
-  std::array<bool, n_voigt<dim>> is_stress{};
-  bool good = columns.size() == std::size_t(n_voigt<dim>);
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    {
-      const auto count = [&](const std::string& name) { return std::count(columns.begin(), columns.end(), name); };
       const std::string strain_column = "strain_" + voigt_name<dim>(k);
       const std::string stress_column = "stress_" + voigt_name<dim>(k) + "_Pa";
-      if (count(strain_column) > 0 && count(stress_column) > 0)
-        throw InputError(fmt::format("{}:1: {} and {} are both given; a component has its strain or its stress given",
-                                     file, strain_column, stress_column));
-      if (good)
-        is_stress[k] = columns[k] == stress_column;
-      good = good && (is_stress[k] || columns[k] == strain_column);
+      strains += fmt::format("{}{}", k > 0 ? "," : "", strain_column);
+      names += fmt::format("{}{}", k > 0 ? ", " : "", voigt_name<dim>(k));
+      const auto strain = table.find_in_si(strain_column);
+      const auto stress = table.find_in_si(stress_column);
+      if (strain && stress)
+        throw InputError(fmt::format("{}:{}: {} and {} are both given; a component has its strain or its stress given",
+                                     file, table.line_of_header(), strain_column, stress_column));
+      good = good && (strain || stress);
+      columns[k] = {strain ? *strain : stress.value_or(0), stress.has_value()};
     }
   if (!good)
-    throw InputError(fmt::format("{}:1: the header is {}; it must be \"{}\", or stress_.._Pa in place of strain_.. "
-                                 "for some of {}",
-                                 file, in_quotes(fmt::format("{}", fmt::join(columns, ","))), strains, names));
-  return is_stress;
+    throw InputError(fmt::format("{}:{}: the header is {}; it must be \"{}\", or stress_.._Pa in place of strain_.. "
+                                 "for some of {}, or units as in \"stress_{} [MPa]\"",
+                                 file, table.line_of_header(),
+                                 in_quotes(fmt::format("{}", fmt::join(table.header(), ","))), strains, names,
+                                 voigt_name<dim>(0)));
+  return columns;
 }
 
 template <int dim>
@@ -85,13 +91,15 @@ std::vector<PathLeg<dim>> legs_from_file(const std::string& file)
 {
   CsvReader table(file);
   Control<dim> control;
-  control.stress_given = stress_columns<dim>(file, table.header());
+  const auto columns = path_columns<dim>(table, file);
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    control.stress_given[k] = columns[k].is_stress;
   std::vector<PathLeg<dim>> legs;
   while (table.next())
     {
       for (int k = 0; k < n_voigt<dim>; ++k)
         {
-          const double value = table.number(std::size_t(k));
+          const double value = table.number(columns[k].place);
           if (!control.stress_given[k] && std::abs(value) > largest_strain)
             throw InputError(fmt::format("{}: point {}: strain_{} = {}: must lie in [-{}, {}]", file, legs.size() + 1,
                                          voigt_name<dim>(k), value, largest_strain, largest_strain));

@@ -3,9 +3,9 @@
 #include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
 #include "app/input/variant_names.h"
-#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/table/csv.h"
 #include "base/text.h"
 #include "results/quantities.h"
 
@@ -140,9 +140,11 @@ void read_variant_table(VariantParameters& wanted)
     {
       std::vector<std::string> row;
       for (const auto& [column, unit] : columns)
-        row.push_back(unit.empty() || !is_decimal_number(table.text(column))
-                        ? std::string(table.text(column))
-                        : fmt::format("{} {}", table.text(column), unit));
+        {
+          row.push_back(table.text_with_point(column));
+          if (!unit.empty() && is_decimal_number(row.back()))
+            (row.back() += ' ') += unit;
+        }
       if (!rows.insert(row).second && has_results)
         continue;
       for (std::size_t k = 0; k < row.size(); ++k)

@@ -47,7 +47,7 @@ std::vector<std::string> report_on(const ReportOrder& order, Progress& progress,
         calibration_problem = error.what(); // the tests are there none the less
       }
   if (!order.curves.empty())
-    input.all.push_back(read_laboratory_curves(order.curves, order.curve_size));
+    input.all.push_back(read_laboratory_curves(order.curves));
   for (const auto& series : input.all)
     {
       const auto fitted = order.envelopes.find(series.tests.front().variant);

@@ -18,11 +18,10 @@ namespace feldspar
 struct ReportOrder
 {
   std::vector<std::filesystem::path> result_folders;
-  std::vector<std::filesystem::path> curves;      ///< measured in a laboratory, one file a test
+  std::vector<MeasuredCurve> curves;              ///< measured in a laboratory
   std::optional<std::filesystem::path> reference; ///< else that of the first folder that has one
   std::filesystem::path output;                   ///< exists
   RunEnvelopes envelopes{}; ///< of the one folder of a run that has just fitted them; what is not there is fitted
-  std::optional<CylinderSize> curve_size{}; ///< of the cylinders whose curves have forces or displacements
 };
 
 /// Reads, and writes the report, until is_over() says that no more pictures are to be drawn. Returns what is missing in it and

@@ -1,7 +1,7 @@
 #include "app/programme/usual_ranges.h"
 
 #include "app/input/parameter_table.h"
-#include "app/input/quantity.h"
+#include "base/table/quantity.h"
 
 #include <fmt/format.h>
 

@@ -187,7 +187,7 @@ const Places places_of_runs{{record_name, "input.prm", "input.json", "summary.js
                             {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
                              "figures", "tables", "calibration", "volumes" /* of 0.2.0, now rves */},
                             true};
-const Places places_of_specimens{{}, {}, true};
+const Places places_of_specimens{{}, {"packings"}, true};
 const Places places_of_contacts{{"contact.csv"}, {}, false};
 const Places places_of_reports{{page_name, film_name}, {"figures", "tables"}, false};
 

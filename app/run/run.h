@@ -31,6 +31,7 @@ struct CommonOptions
   std::vector<std::string> settings;           ///< Section/Entry = value each, in place of what the input says
   std::optional<std::filesystem::path> resume; ///< of those that run long: the folder to be resumed
   std::optional<std::string> extract;          ///< of `multiscale`: CELL:POINT; the input is the folder of a run
+  std::vector<std::string> packings;           ///< of `specimen`: forms in which grains are written for other programs
   std::optional<std::filesystem::path> output;
   bool force = false;
   bool quiet = false;

@@ -184,29 +184,35 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
   place_in_box<dim>(specimen, {packed.radius.begin(), packed.radius.begin() + own}, std::move(final_positions));
 }
 
+/// Puts grains that are near each other in space near each other in memory, and numbers the pairs of them anew.
 template <int dim>
-void sort_in_space(Grains<dim>& grains)
+void sort_in_space(Grains<dim>& grains, std::vector<GrainPair>& pairs)
 {
   std::vector<double> radii;
   Components<dim> positions;
+  std::vector<std::uint32_t> new_number(grains.size());
   for (const std::uint32_t i : spatial_order(grains))
     {
+      new_number[i] = std::uint32_t(radii.size());
       radii.push_back(grains.radius[i]);
       for (int c = 0; c < dim; ++c)
         positions[c].push_back(grains.position[c][i]);
     }
   grains.place(radii, positions);
+  for (auto& [first, second] : pairs)
+    std::tie(first, second) = std::pair(std::minmax(new_number[first], new_number[second]));
 }
 } // namespace
 
 template <int dim>
-void install_joints(Specimen<dim>& specimen, const JointParameters& wanted, const std::function<void()>& check)
+void install_joints(Specimen<dim>& specimen, const JointParameters& wanted, const std::vector<GrainPair>& bonds,
+                    const std::function<void()>& check)
 {
   specimen.joints.law = JointLaws::make<dim>(wanted, specimen.particle_contact);
   std::visit(
     [&]<typename Law, typename Parameters>(const Law& law, const Parameters& parameters) {
       if constexpr (std::same_as<typename Law::Parameters, Parameters>)
-        install_joints(specimen, law, parameters, check);
+        install_joints(specimen, law, parameters, bonds, check);
     },
     specimen.joints.law, wanted);
 }
@@ -228,15 +234,20 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   specimen.bulk_density = wanted.bulk_density;
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;
+  std::vector<GrainPair> bonds;
   if (wanted.packing_file.empty())
     pack(specimen, wanted, check, check_within);
   else
-    specimen.grains = read_packing<dim>(wanted, check_within);
+    {
+      Packing<dim> packing = read_packing<dim>(wanted, check_within);
+      specimen.grains = std::move(packing.grains);
+      bonds = std::move(packing.bonds);
+    }
   check_within();
-  sort_in_space(specimen.grains);
+  sort_in_space(specimen.grains, bonds);
   const double porosity = 1.0 - specimen.grains.volume(specimen.thickness) / specimen.volume();
   specimen.grains.set_density(wanted.bulk_density / (1.0 - porosity), specimen.thickness);
-  install_joints(specimen, joint, check_within);
+  install_joints(specimen, joint, bonds, check_within);
   if (!wanted.is_cored())
     return specimen;
   std::array<unsigned int, dim> n_cells;
@@ -252,6 +263,8 @@ template Specimen<2> make_specimen<2>(const SpecimenParameters&, const JointPara
 template Specimen<3> make_specimen<3>(const SpecimenParameters&, const JointParameters&,
                                       const ParticleContactParameters&, std::uint64_t, const std::function<void()>&,
                                       const std::function<void()>&);
-template void install_joints<2>(Specimen<2>&, const JointParameters&, const std::function<void()>&);
-template void install_joints<3>(Specimen<3>&, const JointParameters&, const std::function<void()>&);
+template void install_joints<2>(Specimen<2>&, const JointParameters&, const std::vector<GrainPair>&,
+                                const std::function<void()>&);
+template void install_joints<3>(Specimen<3>&, const JointParameters&, const std::vector<GrainPair>&,
+                                const std::function<void()>&);
 } // namespace feldspar

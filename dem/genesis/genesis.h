@@ -20,8 +20,9 @@ Specimen<dim> make_specimen(
   std::uint64_t seed, const std::function<void()>& check = [] {}, const std::function<void()>& check_within = [] {});
 
 /// Joints of the law that the parameters are of, stress free, between the grains of a specimen that has none; fills in
-/// its report. `check` as of pairs_within().
+/// its report. `bonds`: exactly these pairs get one; empty: those that come near enough. `check` as of pairs_within().
 template <int dim>
 void install_joints(
-  Specimen<dim>& specimen, const JointParameters& joint, const std::function<void()>& check = [] {});
+  Specimen<dim>& specimen, const JointParameters& joint, const std::vector<GrainPair>& bonds = {},
+  const std::function<void()>& check = [] {});
 } // namespace feldspar

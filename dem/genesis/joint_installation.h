@@ -15,6 +15,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -90,6 +91,23 @@ std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Paramet
   return n;
 }
 
+/// The pairs, sorted by gap, that bonds name; of images of a grain the nearest.
+template <int dim, typename Parameters>
+std::vector<PairGap<dim>> bonded_pairs(const std::vector<PairGap<dim>>& gaps, const Parameters& wanted,
+                                       const std::vector<GrainPair>& bonds)
+{
+  if (wanted.coordination_number)
+    throw ParameterError(parameter_id<&Parameters::coordination_number, Parameters>(),
+                         fmt::format("{}", *wanted.coordination_number),
+                         "the bonds of the packing say already which grains are joined; leave it out");
+  std::set<GrainPair> missing(bonds.begin(), bonds.end());
+  std::vector<PairGap<dim>> pairs;
+  for (const PairGap<dim>& entry : gaps)
+    if (missing.erase(std::minmax(entry.first, entry.second.owner)) > 0)
+      pairs.push_back(entry);
+  return pairs;
+}
+
 template <int dim>
 void fill_report(Specimen<dim>& specimen, const std::vector<PairGap<dim>>& gaps)
 {
@@ -137,23 +155,28 @@ void fill_report(Specimen<dim>& specimen, const std::vector<PairGap<dim>>& gaps)
 } // namespace installation
 
 /// Joints of the law, stress free, between the grains of a specimen that has none; fills in its report. The law itself
-/// is not put into the specimen.
+/// is not put into the specimen. `listed`: exactly these pairs get one; empty: those that come near enough.
 template <int dim, JointLaw<dim> Law>
 void install_joints(
   Specimen<dim>& specimen, const Law& law, const typename Law::Parameters& wanted,
-  const std::function<void()>& check = [] {})
+  const std::vector<GrainPair>& listed = {}, const std::function<void()>& check = [] {})
 {
   using namespace installation;
   const auto& grains = specimen.grains;
   const double mean_radius = grains.mean_radius();
   const double search_gap = std::max(search_gap_ratio, wanted.installation_gap_ratio.value_or(0.0)) * mean_radius;
   const auto gaps = pair_gaps(specimen, search_gap * (1.0 + 1e-12), check);
-  const std::size_t n = n_joints_wanted(gaps, wanted, grains.size(), mean_radius);
-  specimen.report.installation_gap_ratio = !wanted.coordination_number ? *wanted.installation_gap_ratio
-                                           : n > 0                     ? gaps[n - 1].gap / mean_radius
-                                                                       : 0.0;
+  std::vector<PairGap<dim>> pairs =
+    listed.empty()
+      ? std::vector(gaps.begin(),
+                    gaps.begin() + std::ptrdiff_t(n_joints_wanted(gaps, wanted, grains.size(), mean_radius)))
+      : bonded_pairs(gaps, wanted, listed);
+  const std::size_t n = pairs.size();
+  specimen.report.installation_gap_ratio = listed.empty() && !wanted.coordination_number
+                                             ? *wanted.installation_gap_ratio
+                                           : n > 0 ? pairs.back().gap / mean_radius
+                                                   : 0.0;
 
-  std::vector<PairGap<dim>> pairs(gaps.begin(), gaps.begin() + std::ptrdiff_t(n));
   std::sort(pairs.begin(), pairs.end(), [](const PairGap<dim>& a, const PairGap<dim>& b) {
     return std::tie(a.first, a.second) < std::tie(b.first, b.second);
   });

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -16,7 +18,8 @@ namespace feldspar
 {
 namespace
 {
-constexpr double largest_overlap = 0.05; // of the smaller radius
+constexpr double largest_overlap = 0.05;  // of the smaller radius
+constexpr double largest_gap_ratio = 1.0; // of bonded grains, over the mean radius: the largest that can get a joint
 
 /// Throws InputError for two grains that overlap by more than is allowed; of a periodic packing across its sides too.
 template <int dim>
@@ -82,15 +85,51 @@ void check_walls(const Grains<dim>& grains, const SpecimenParameters& wanted, co
              "round side");
     }
 }
+/// A place along an axis; in a periodic cell that of the image inside it, whose two sides are one place.
+double wrapped(const double x, const double length)
+{
+  const double inside = x - length * std::floor(x / length);
+  return inside < length ? inside : 0.0;
+}
+
+/// The pairs that bonds join, in ascending order; throws InputError for a bond between grains too far apart for a joint.
+template <int dim>
+std::vector<GrainPair> pairs_of(const std::vector<PackedBond>& bonds, const Grains<dim>& grains,
+                                const SpecimenParameters& wanted)
+{
+  Vector<dim> size = Vector<dim>::Constant(wanted.width);
+  size[dim - 1] = wanted.height;
+  std::vector<GrainPair> pairs;
+  for (const auto& [line, first, second] : bonds)
+    {
+      Vector<dim> branch = at<dim>(grains.position, second) - at<dim>(grains.position, first);
+      if (is_periodic(wanted.shape))
+        branch -= (size.array() * (branch.array() / size.array()).round()).matrix();
+      const double gap = branch.norm() - grains.radius[first] - grains.radius[second];
+      if (const double allowed = largest_gap_ratio * grains.mean_radius(); gap > allowed)
+        throw InputError(fmt::format("{}:{}: a bond joins grains with a gap of {:.3g} m; allowed is the mean radius, "
+                                     "{:.3g} m",
+                                     wanted.packing_file, line, gap, allowed));
+      pairs.emplace_back(std::minmax(std::uint32_t(first), std::uint32_t(second)));
+    }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
 } // namespace
 
 template <int dim>
-Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<void()>& check)
+Packing<dim> read_packing(const SpecimenParameters& wanted, const std::function<void()>& check)
 {
+  constexpr double most_cells_away = 1000.0; // of a grain that has crossed sides of a periodic cell
+  const PackingTable table = read_packing_table(wanted.packing_file, dim, wanted.packing_unit, check);
   std::vector<double> radii;
   Components<dim> positions;
   std::vector<std::size_t> line_of;
-  for (const auto& [line, values, radius] : read_packing_table(wanted.packing_file, dim, check))
+  if (!wanted.packing_shift.empty() && wanted.packing_shift.size() != std::size_t(dim))
+    throw ParameterError(parameter_id<&SpecimenParameters::packing_shift>(),
+                         fmt::format("{} lengths; there must be {}", wanted.packing_shift.size(), dim));
+  for (auto [line, values, radius] : table.grains)
     {
       const std::string where = fmt::format("{}:{}", wanted.packing_file, line);
       if (radius <= 0.0)
@@ -98,17 +137,21 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
       for (int c = 0; c < dim; ++c)
         {
           const double length = c == dim - 1 ? wanted.height : wanted.width;
-          if (values[c] < 0.0 || values[c] > length)
-            throw InputError(fmt::format("{}: {} = {} m lies outside the specimen; allowed are 0 to {} m", where,
-                                         "xyz"[c], values[c], length));
+          values[c] += wanted.packing_shift.empty() ? 0.0 : wanted.packing_shift[c];
+          const bool is_wrapped = is_periodic(wanted.shape) && std::abs(values[c]) <= most_cells_away * length;
+          if (!is_wrapped && (values[c] < 0.0 || values[c] > length))
+            throw InputError(fmt::format("{}: {} = {} m lies outside the specimen; allowed are 0 to {} m; {} and {} "
+                                         "bring grains of another unit or origin there",
+                                         where, "xyz"[c], values[c], length,
+                                         in_words(parameter_id<&SpecimenParameters::packing_unit>()),
+                                         in_words(parameter_id<&SpecimenParameters::packing_shift>())));
           // Before it has an image in each of very many boxes.
           if (const double overlap = 2.0 * radius - length;
               is_periodic(wanted.shape) && overlap > largest_overlap * radius)
             throw InputError(fmt::format("{}: overlaps its own image by {:.3g} m across the sides of the periodic box; "
                                          "allowed are {:.0f} % of the radius, {:.3g} m",
                                          where, overlap, 100.0 * largest_overlap, largest_overlap * radius));
-          // The two sides of a periodic box are one place.
-          positions[c].push_back(is_periodic(wanted.shape) && values[c] == length ? 0.0 : values[c]);
+          positions[c].push_back(is_wrapped ? wrapped(values[c], length) : values[c]);
         }
       if (wanted.shape == BodyShape::cylinder)
         if (const double r = std::hypot(values[0] - 0.5 * wanted.width, values[1] - 0.5 * wanted.width);
@@ -121,14 +164,15 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
   if (radii.size() < 2)
     throw InputError(fmt::format("{}: {} grains; a packing has at least two", wanted.packing_file, radii.size()));
 
-  Grains<dim> grains;
-  grains.place(radii, positions);
-  check_overlaps(grains, wanted, line_of, check);
+  Packing<dim> packing;
+  packing.grains.place(radii, positions);
+  check_overlaps(packing.grains, wanted, line_of, check);
   if (!is_periodic(wanted.shape) && !wanted.is_cored())
-    check_walls(grains, wanted, line_of);
-  return grains;
+    check_walls(packing.grains, wanted, line_of);
+  packing.bonds = pairs_of(table.bonds, packing.grains, wanted);
+  return packing;
 }
 
-template Grains<2> read_packing<2>(const SpecimenParameters&, const std::function<void()>&);
-template Grains<3> read_packing<3>(const SpecimenParameters&, const std::function<void()>&);
+template Packing<2> read_packing<2>(const SpecimenParameters&, const std::function<void()>&);
+template Packing<3> read_packing<3>(const SpecimenParameters&, const std::function<void()>&);
 } // namespace feldspar

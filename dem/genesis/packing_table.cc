@@ -1,9 +1,9 @@
 #include "dem/genesis/packing_table.h"
 
-#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
-#include "base/readable_file.h"
+#include "base/table/csv.h"
+#include "base/table/quantity.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <istream>
+#include <iterator>
+#include <map>
+#include <memory>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 
@@ -31,14 +36,16 @@ struct PackingLines
 {
   std::vector<std::string> names; ///< of the columns; empty where the file has none
   std::size_t line_of_names = 1;
-  std::array<double, 3> origin{}; ///< [m]
+  std::array<double, 3> origin{}; ///< in the unit of the file
   std::vector<NumberedLine> rows;
+  /// Atoms in data of LAMMPS may have the numbers of the boxes that they have crossed behind them.
+  bool may_have_more = false;
+  std::vector<NumberedLine> bonds; ///< their number, their type, and the numbers of two grains
 };
 
 /// The words of a line; a unit in brackets belongs to the word before it.
-std::vector<std::string_view> words_of(const std::string_view line)
+std::vector<std::string_view> words_of(const std::string_view line, const std::string_view separators)
 {
-  constexpr std::string_view separators = " \t\r,;";
   std::vector<std::string_view> words;
   for (std::size_t at = line.find_first_not_of(separators); at != std::string_view::npos;
        at = line.find_first_not_of(separators, at))
@@ -75,7 +82,7 @@ class PackingReader
 public:
   PackingReader(const std::filesystem::path& of_file, const std::function<void()>& its_check)
     : name(of_file.string())
-    , stream(of_file)
+    , stream(open_text(of_file))
     , check(its_check)
   {
   }
@@ -92,12 +99,13 @@ public:
             is_first = false;
             continue;
           }
-        if (is_first && line.find("LAMMPS") != std::string::npos)
+        if ((is_first && line.find("LAMMPS") != std::string::npos) ||
+            (all.rows.empty() && words.size() == 2 && words.back() == "atoms")) // below a title of other words
           {
             read_data(all);
             return all;
           }
-        if (is_first && !as_number(without_quotes(words.front())))
+        if (is_first && !value_of(words.front()))
           name_columns(all, words);
         else
           all.rows.push_back(numbers());
@@ -114,29 +122,48 @@ private:
     constexpr std::size_t lines_between_checks = 10000;
     do
       {
-        if (!std::getline(stream, line))
+        if (!std::getline(*stream, line))
           return false;
         if (++number % lines_between_checks == 0)
           check();
         if (number == 1 && line.find("LAMMPS") != std::string::npos) // the title of a data file may begin with #
           std::replace(line.begin(), line.end(), '#', ' ');
+        if (constexpr std::string_view format = "#format "; line.starts_with(format)) // the column names of YADE
+          {
+            line.erase(0, format.size());
+            std::replace(line.begin(), line.end(), '_', ' ');
+          }
         if (!with_comments)
           line.erase(std::min(line.find('#'), line.size()));
-        words = words_of(line);
+        if (separators.empty() && !trim(line).empty()) // the first line tells whether a comma is a decimal sign
+          separators = line.find_first_of(";\t") != std::string::npos ? " \t\r;" : " \t\r,;";
+        words = words_of(line, separators);
       }
     while (words.empty());
     return true;
   }
 
-  NumberedLine numbers() const
+  /// The number that a word is, if it is one.
+  std::optional<double> value_of(const std::string_view word)
+  {
+    std::string number_with_point(without_quotes(word));
+    const std::size_t sign = number_with_point.find_first_of(".,");
+    const char its_sign = sign == std::string::npos ? decimal_sign : number_with_point[sign];
+    std::replace(number_with_point.begin(), number_with_point.end(), ',', '.');
+    const auto value = as_number(number_with_point);
+    if (value && decimal_sign != 0 && its_sign != decimal_sign)
+      throw InputError(
+        fmt::format("{}:{}: {} has another decimal sign than the numbers before it", name, number, in_quotes(word)));
+    if (value)
+      decimal_sign = its_sign;
+    return value;
+  }
+
+  NumberedLine numbers()
   {
     NumberedLine row{number, {}};
-    for (const std::string_view word : words)
-      {
-        const auto value = as_number(without_quotes(word));
-        // Words may stand in columns that are not asked for, such as the material of a grain.
-        row.values.push_back(value.value_or(std::nan("")));
-      }
+    for (const std::string_view word : words) // in columns that are not asked for, such as that of the material
+      row.values.push_back(value_of(word).value_or(std::nan("")));
     return row;
   }
 
@@ -172,36 +199,69 @@ private:
     return false;
   }
 
+  /// The names of the columns of atoms, from the style behind the name of their section: `Atoms # bpm/sphere`.
+  void name_atoms(PackingLines& all) const
+  {
+    const std::vector<std::string_view> style(words.begin() + std::min<std::ptrdiff_t>(2, std::ssize(words)),
+                                              words.end());
+    if (style.empty() || (style.size() == 1 && style.front() == "sphere"))
+      return;
+    if (style.size() == 1 && style.front() == "bpm/sphere")
+      all.names = {"id", "molecule", "type", "diameter", "density", "x", "y", "z"};
+    else if (style.front() == "hybrid" && std::ranges::find(style, "sphere") != style.end())
+      {
+        all.names = {"id", "type", "x", "y", "z"};
+        for (const std::string_view part : style | std::views::drop(1))
+          if (part == "sphere")
+            all.names.insert(all.names.end(), {"diameter", "density"});
+          else if (part == "bond" || part == "angle" || part == "molecular")
+            all.names.emplace_back("molecule");
+          else
+            throw InputError(fmt::format("{}:{}: a hybrid with {} is not read; it must be of sphere, bond, angle and "
+                                         "molecular",
+                                         name, number, in_quotes(part)));
+      }
+    else
+      throw InputError(
+        fmt::format("{}:{}: atoms have the style {}; it must be sphere, bpm/sphere, or hybrid with sphere "
+                    "and its other styles, which have diameters",
+                    name, number, in_quotes(fmt::format("{}", fmt::join(style, " ")))));
+  }
+
   void read_data(PackingLines& all)
   {
+    all.may_have_more = true;
     all.names = {"id", "type", "diameter", "density", "x", "y", "z"};
-    bool is_in_atoms = false;
+    std::string section;
     while (next(true))
-      {
-        if (!is_in_atoms && words.front() == "Atoms")
-          {
-            is_in_atoms = true;
-            if (words.size() > 2 && words[2] != "sphere")
-              throw InputError(fmt::format("{}:{}: atoms have the style {}; it must be sphere, which has diameters",
-                                           name, number, in_quotes(words[2])));
-            continue;
-          }
-        for (std::size_t axis = 0; !is_in_atoms && axis < 3; ++axis)
-          if (words.size() > 3 && words[2] == std::array{"xlo", "ylo", "zlo"}[axis])
-            all.origin[axis] = as_number(words.front()).value_or(0.0);
-        if (is_in_atoms && !as_number(words.front()))
-          return; // the next section
-        if (is_in_atoms)
-          all.rows.push_back(numbers());
-      }
+      if (!value_of(words.front())) // the name of a section
+        {
+          section = words.front();
+          if (section == "Atoms")
+            name_atoms(all);
+        }
+      else if (section == "Atoms")
+        all.rows.push_back(numbers());
+      else if (section == "Bonds")
+        all.bonds.push_back(numbers());
+      else if (section.empty() && words.size() > 3)
+        {
+          if (words.size() > 5 && words[3] == "xy")
+            throw InputError(fmt::format("{}:{}: a box that is not at right angles is not read", name, number));
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            if (words[2] == std::array{"xlo", "ylo", "zlo"}[axis])
+              all.origin[axis] = value_of(words.front()).value_or(0.0);
+        }
   }
 
   std::string name;
-  ReadableFile stream;
+  std::unique_ptr<std::istream> stream;
   const std::function<void()>& check;
   std::string line;
   std::vector<std::string_view> words;
   std::size_t number = 0;
+  std::string_view separators; ///< of words; empty before the first line
+  char decimal_sign = 0;       ///< as numbers have shown so far
 };
 
 /// A column of a table, and its unit in metres.
@@ -211,28 +271,34 @@ struct PackingColumn
   double unit;
 };
 
-/// The column that has the first of these names that there is; none if there is no such.
+/// The column that has the first of these names that there is; none if there is no such. Names that end in _m are of metres;
+/// `unit` is that of the others where they have none.
 std::optional<PackingColumn> column_of(const PackingLines& lines, const std::vector<std::string_view>& names,
-                                       const std::string& file)
+                                       const double unit, const std::string& file)
 {
   for (const std::string_view wanted : names)
     for (std::size_t c = 0; c < lines.names.size(); ++c)
       {
-        const auto [name, unit] = title_of(lines.names[c]);
+        const auto [name, symbol] = title_of(lines.names[c]);
         if (in_small_letters(name) != wanted)
           continue;
-        for (const auto& [symbol, metres] :
-             {std::pair(std::string_view(), 1.0), {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"µm", 1e-6}})
-          if (unit == symbol)
-            return PackingColumn{c, metres};
-        throw InputError(fmt::format("{}:{}: {} is not a unit of length; it must be m, cm, mm or um", file,
-                                     lines.line_of_names, in_quotes(unit)));
+        if (symbol.empty())
+          return PackingColumn{c, wanted.ends_with("_m") ? 1.0 : unit};
+        try
+          {
+            return PackingColumn{c, to_si(1.0, symbol, length)};
+          }
+        catch (const InputError& error)
+          {
+            throw InputError(fmt::format("{}:{}: {}", file, lines.line_of_names, error.what()));
+          }
       }
   return std::nullopt;
 }
 
 /// Columns of x, y[, z] and the radius by their names.
-std::vector<PackingColumn> columns_by_name(const PackingLines& lines, const int dim, const std::string& file)
+std::vector<PackingColumn> columns_by_name(const PackingLines& lines, const int dim, const double unit,
+                                           const std::string& file)
 {
   std::vector<PackingColumn> columns;
   const std::vector<std::string_view> of_axis[] = {{"start_x_m", "x", "x_m", "position_x"},
@@ -243,13 +309,13 @@ std::vector<PackingColumn> columns_by_name(const PackingLines& lines, const int 
                                   lines.line_of_names, what, dim == 3 ? ", z" : ""));
   };
   for (int axis = 0; axis < dim; ++axis)
-    if (const auto column = column_of(lines, of_axis[axis], file))
+    if (const auto column = column_of(lines, of_axis[axis], unit, file))
       columns.push_back(*column);
     else
       throw missing(of_axis[axis][1]);
-  if (const auto radius = column_of(lines, {"radius", "r", "radius_m"}, file))
+  if (const auto radius = column_of(lines, {"radius", "r", "radius_m"}, unit, file))
     columns.push_back(*radius);
-  else if (const auto diameter = column_of(lines, {"diameter", "d", "diameter_m"}, file))
+  else if (const auto diameter = column_of(lines, {"diameter", "d", "diameter_m"}, unit, file))
     columns.push_back({diameter->place, 0.5 * diameter->unit});
   else
     throw missing("radius");
@@ -257,7 +323,7 @@ std::vector<PackingColumn> columns_by_name(const PackingLines& lines, const int 
 }
 
 /// Columns of x, y[, z] and the radius by their order.
-std::vector<PackingColumn> columns_by_order(const std::vector<NumberedLine>& rows, const int dim,
+std::vector<PackingColumn> columns_by_order(const std::vector<NumberedLine>& rows, const int dim, const double unit,
                                             const std::string& file)
 {
   const std::size_t n = rows.front().values.size();
@@ -293,28 +359,53 @@ std::vector<PackingColumn> columns_by_order(const std::vector<NumberedLine>& row
   std::vector<PackingColumn> columns;
   columns.reserve(n_wanted);
   for (int axis = 0; axis < dim; ++axis)
-    columns.push_back({first + std::size_t(axis), 1.0});
-  columns.push_back({first + (has_height ? 3 : 2), 1.0});
+    columns.push_back({first + std::size_t(axis), unit});
+  columns.push_back({first + (has_height ? 3 : 2), unit});
   return columns;
+}
+/// The bonds by places of their grains, whose numbers are in the column id.
+std::vector<PackedBond> bonds_of(const PackingLines& lines, const std::string& file)
+{
+  std::vector<PackedBond> bonds;
+  if (lines.bonds.empty())
+    return bonds;
+  std::map<double, std::size_t> place_of; // the column of the number is the first one of atoms
+  for (std::size_t k = 0; k < lines.rows.size(); ++k)
+    place_of[lines.rows[k].values.front()] = k;
+  for (const auto& [line, values] : lines.bonds)
+    {
+      const auto grain = [&](const std::size_t column) {
+        const auto found =
+          values.size() < 4 || std::isnan(values[column]) ? place_of.end() : place_of.find(values[column]);
+        if (found == place_of.end())
+          throw InputError(fmt::format("{}:{}: a bond is a line of its number, its type, and the numbers of two atoms "
+                                       "of the file",
+                                       file, line));
+        return found->second;
+      };
+      bonds.push_back({line, grain(2), grain(3)});
+      if (bonds.back().first == bonds.back().second)
+        throw InputError(fmt::format("{}:{}: a bond joins an atom to itself", file, line));
+    }
+  return bonds;
 }
 } // namespace
 
-std::vector<PackedGrain> read_packing_table(const std::filesystem::path& path, const int dim,
-                                            const std::function<void()>& check)
+PackingTable read_packing_table(const std::filesystem::path& path, const int dim, const double unit,
+                                const std::function<void()>& check)
 {
   const std::string file = path.string();
   const PackingLines lines = PackingReader(path, check).read();
+  PackingTable packing;
   if (lines.rows.empty())
-    return {};
+    return packing;
   const auto columns =
-    lines.names.empty() ? columns_by_order(lines.rows, dim, file) : columns_by_name(lines, dim, file);
-  std::vector<PackedGrain> grains;
-  grains.reserve(lines.rows.size());
+    lines.names.empty() ? columns_by_order(lines.rows, dim, unit, file) : columns_by_name(lines, dim, unit, file);
+  packing.grains.reserve(lines.rows.size());
   for (const auto& [line, values] : lines.rows)
     {
       const std::size_t n_values = lines.names.empty() ? lines.rows.front().values.size() : lines.names.size();
-      // Atoms of LAMMPS may have the numbers of the boxes that they have crossed behind them.
-      if (values.size() < n_values || (lines.names.empty() && values.size() > n_values))
+      if (values.size() < n_values || (!lines.may_have_more && values.size() > n_values))
         throw InputError(fmt::format("{}:{}: {} numbers found; there must be {}, as in the lines before", file, line,
                                      values.size(), n_values));
       PackedGrain grain{line, {}, 0.0};
@@ -327,10 +418,11 @@ std::vector<PackedGrain> read_packing_table(const std::filesystem::path& path, c
           if (c + 1 == columns.size())
             grain.radius = value;
           else
-            grain.position.push_back(value - lines.origin[c]);
+            grain.position.push_back(value - unit * lines.origin[c]);
         }
-      grains.push_back(std::move(grain));
+      packing.grains.push_back(std::move(grain));
     }
-  return grains;
+  packing.bonds = bonds_of(lines, file);
+  return packing;
 }
 } // namespace feldspar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/entries.h"
+#include "base/table/quantity.h"
 #include "dem/laws/joint_laws.h"
 #include "dem/specimen/parameters.h"
 
@@ -91,8 +92,23 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
                    of_cells_along),
     entry::file(
       "Packing file", &P::packing_file,
-      "grains packed elsewhere: lines `x y radius` in metres, a table with column names, or a file of LAMMPS; none makes a packing",
+      "grains packed elsewhere: lines `x y radius`, a table with column names, or a file of LAMMPS, whose bonds become "
+      "the joints; into a periodic cell grains outside come in from the other side; none makes a packing",
       of_body),
+    entry::quantity("Packing unit", &P::packing_unit, Measure::length, "m", ranges::above_zero,
+                    "length of 1 in a Packing file without units", of_body),
+    {"Packing shift",
+     Entry<P>::Text{"mm", "none, or a length for each of x, y (or x, y, z)",
+                    [](P& wanted, const std::string_view text) {
+                      wanted.packing_shift = text == "none" ? std::vector<double>() : parse_quantities(text, length);
+                    },
+                    [](const P& wanted) {
+                      std::string text;
+                      for (const double shift : wanted.packing_shift)
+                        text += (text.empty() ? "" : ", ") + format_number(shift * 1e3);
+                      return text.empty() ? "none" : text + " mm";
+                    }},
+     "by which the grains of a Packing file are moved", of_body, parameter_id<&P::packing_shift>()},
     entry::file(
       "Specimen file", &P::specimen_file,
       "a finished specimen.h5 to be tested, or, for `feldspar rve`, a representative volume "

@@ -3,6 +3,7 @@
 #include "base/body.h"
 
 #include <string>
+#include <vector>
 
 /// Parameters of a specimen, in SI units and radians, tension positive. Default-constructed values are the defaults of the
 /// input in the plane; in space an input without a porosity means 0.36.
@@ -34,10 +35,12 @@ struct SpecimenParameters
   bool packed_by_descent = true;      ///< grains come to rest by descent, not by damped dynamics
   std::string joint_law = "flat joint";
   Coring coring = Coring::none;
-  unsigned int cells_across = 1; ///< of a cored specimen: equal cells that it is put together from
-  unsigned int cells_along = 1;  ///< the same along the axis of the test
-  std::string packing_file;      ///< lines `x y [z] radius` in metres; empty: make a packing
-  std::string specimen_file;     ///< a finished specimen.h5; empty: make one
+  unsigned int cells_across = 1;     ///< of a cored specimen: equal cells that it is put together from
+  unsigned int cells_along = 1;      ///< the same along the axis of the test
+  std::string packing_file;          ///< empty: make a packing
+  double packing_unit = 1.0;         ///< length of 1 in columns of the packing file without a unit [m]
+  std::vector<double> packing_shift; ///< of its grains, after their unit; empty: none [m]
+  std::string specimen_file;         ///< a finished specimen.h5; empty: make one
 
   bool is_cored() const { return coring != Coring::none; }
 

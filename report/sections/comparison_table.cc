@@ -95,6 +95,56 @@ std::string deviation_note(const Findings& findings, const std::vector<std::size
     "; of {} specimens it is itself uncertain: with 95 % the rock's is {:.2f} to {:.2f} times as large", *fewest,
     over_shown.low, over_shown.high);
 }
+
+/// Measured curves of one kind and pressure beside the model's tests; the table has no name yet.
+Table measured_table(const Findings& findings, const TestGroup& curve, const std::string& label)
+{
+  const PropertySource source = curve.envelope_role() == EnvelopeRole::tension ? PropertySource::tension
+                                : curve.envelope_role() == EnvelopeRole::indirect_tension
+                                  ? PropertySource::indirect_tension
+                                  : PropertySource::compression;
+  Table table{"",
+              curve.title() + ": measured and model, mean ± standard deviation over the seeds",
+              {"property", label},
+              {}};
+  // The model was hardly pressed with just the pressure of the laboratory.
+  const auto is_alike = [&](const TestGroup& group) {
+    return group.kind == curve.kind && group.intermediate_stress == curve.intermediate_stress &&
+           std::abs(group.confining_pressure - curve.confining_pressure) <=
+             0.05 * std::max(group.confining_pressure, curve.confining_pressure);
+  };
+  std::vector<TestGroup> beside;
+  for (const auto& series : findings.all)
+    if (series.kind != SeriesKind::laboratory_curve)
+      for (const auto& group : groups_of(series))
+        if (is_alike(group))
+          {
+            beside.push_back(group);
+            table.header.push_back(group.confining_pressure == curve.confining_pressure
+                                     ? series.label
+                                     : series.label + ", " + group.title());
+          }
+  for (const RockProperty& property : rock_properties)
+    if (property.source == source && !property.choice.hidden_otherwise)
+      {
+        const auto& [unit, scale, decimals] = quantity_of(property.figure).shown;
+        const auto over_curves = statistics(values(curve, property.figure));
+        const Figure& first = curve.tests.front()->results.*property.figure;
+        std::vector<std::string> row{with_unit(quantity_of(property.figure).title, unit),
+                                     curve.tests.size() == 1 && first.value ? number(first, scale, decimals)
+                                     : over_curves ? mean_and_deviation(*over_curves, scale, decimals)
+                                                   : fmt::format("{} ({})", none, first.reason)};
+        for (const auto& group : beside)
+          {
+            const auto over_seeds = statistics(values(group, property.figure));
+            row.push_back(over_seeds ? mean_and_deviation(*over_seeds, scale, decimals) : none);
+          }
+        table.rows.push_back(row);
+      }
+  if (beside.empty())
+    table.caption += "; the model was not tested so";
+  return table;
+}
 } // namespace
 
 Table comparison_of_many(const Findings& findings)
@@ -217,46 +267,17 @@ Table comparison_table(const Findings& findings)
   return table;
 }
 
-Table measured_table(const Findings& findings, const std::size_t n)
+std::vector<Table> measured_tables(const Findings& findings, const std::size_t n)
 {
   const Series& measured = findings.all[n];
-  const TestGroup curve = groups_of(measured).front();
-  Table table{fmt::format("measured_{}_{}", n + 1, plot::file_name(measured.label)),
-              curve.title() + ": measured and model, mean ± standard deviation over the seeds",
-              {"property", measured.label},
-              {}};
-  // The model was hardly pressed with just the pressure of the laboratory.
-  const auto is_alike = [&](const TestGroup& group) {
-    return group.kind == curve.kind && group.intermediate_stress == curve.intermediate_stress &&
-           std::abs(group.confining_pressure - curve.confining_pressure) <=
-             0.05 * std::max(group.confining_pressure, curve.confining_pressure);
-  };
-  std::vector<TestGroup> beside;
-  for (const auto& series : findings.all)
-    if (series.kind != SeriesKind::laboratory_curve)
-      for (const auto& group : groups_of(series))
-        if (is_alike(group))
-          {
-            beside.push_back(group);
-            table.header.push_back(group.confining_pressure == curve.confining_pressure
-                                     ? series.label
-                                     : series.label + ", " + group.title());
-          }
-  for (const RockProperty& property : rock_properties)
-    if (property.source == PropertySource::compression && !property.choice.hidden_otherwise)
-      {
-        const auto& [unit, scale, decimals] = quantity_of(property.figure).shown;
-        std::vector<std::string> row{with_unit(quantity_of(property.figure).title, unit),
-                                     number(curve.tests.front()->results.*property.figure, scale, decimals)};
-        for (const auto& group : beside)
-          {
-            const auto over_seeds = statistics(values(group, property.figure));
-            row.push_back(over_seeds ? mean_and_deviation(*over_seeds, scale, decimals) : none);
-          }
-        table.rows.push_back(row);
-      }
-  if (beside.empty())
-    table.caption += "; the model was not tested so";
-  return table;
+  const auto groups = groups_of(measured);
+  std::vector<Table> tables;
+  for (const TestGroup& group : groups)
+    {
+      tables.push_back(measured_table(findings, group, measured.label));
+      tables.back().name = fmt::format("measured_{}_{}", n + 1, plot::file_name(measured.label)) +
+                           (groups.size() > 1 ? "_" + group.name() : "");
+    }
+  return tables;
 }
 } // namespace feldspar

@@ -11,6 +11,7 @@ Table comparison_table(const Findings& findings);
 /// The same with a line for each series, and before them the experiment and the other model of the reference.
 Table comparison_of_many(const Findings& findings);
 
-/// The n-th series, a measured curve, beside the model's tests of its kind and pressure.
-Table measured_table(const Findings& findings, std::size_t n);
+/// The n-th series, of measured curves, beside the model's tests of their kinds and pressures, a table each. What a curve lacks
+/// has its reason.
+std::vector<Table> measured_tables(const Findings& findings, std::size_t n);
 } // namespace feldspar

@@ -124,7 +124,7 @@ PageSection verdict_section(const Findings& findings)
           block.subheading = findings.all[n].label;
           block.chip = plot::colour(findings.all[n], n);
           block.paragraphs.push_back("Measured in a laboratory and evaluated as the model's tests are.");
-          block.tables.push_back(measured_table(findings, n));
+          block.tables = measured_tables(findings, n);
         }
       else
         {

@@ -1,10 +1,10 @@
 #include "results/folder/calibration_record.h"
 
-#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/json_text.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
+#include "base/table/csv.h"
 #include "base/text.h"
 #include "laboratory/named_entries.h"
 #include "results/folder/provenance_json.h"

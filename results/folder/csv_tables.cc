@@ -1,7 +1,7 @@
 #include "results/folder/csv_tables.h"
 
-#include "base/csv.h"
 #include "base/quoted.h"
+#include "base/table/csv.h"
 #include "base/whole_file.h"
 #include "results/folder/table_columns.h"
 

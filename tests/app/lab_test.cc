@@ -1,6 +1,6 @@
 // The laboratory as a user runs it, on small specimens.
 
-#include "base/csv.h"
+#include "base/table/csv.h"
 #include "tests/app/run_command.h"
 #include "tests/content.h"
 #include "tests/temporary_folder.h"
@@ -154,6 +154,30 @@ TEST(Lab, TestsASpecimenMadeBefore)
   // The file has its grains and joints, whatever else the input says of them.
   EXPECT_NE(again.error.find("the specimen is that of made/specimen.h5"), std::string::npos) << again.error;
   EXPECT_NE(again.error.find("have no effect on it: Specimen/Width"), std::string::npos) << again.error;
+}
+
+// Out to the forms of other codes and in again, to the last bit, with the joints that the list of bonds names.
+TEST(Lab, WritesPackingsThatItReadsAgain)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", small_rock);
+  const auto made =
+    run_feldspar(folder.path(), "specimen rock.prm --packing yade --packing lammps --output made --quiet");
+  ASSERT_EQ(made.exit_code, 0) << made.error;
+  EXPECT_NE(made.output.find("made/packings/specimen_seed_4.data\n"), std::string::npos) << made.output;
+  for (const char* const name : {"specimen_seed_3.txt", "specimen_seed_3.data"})
+    {
+      const auto again = run_feldspar(
+        folder.path(), fmt::format("specimen rock.prm --set 'Specimen/Packing file = made/packings/{}' --set "
+                                   "'Seeds/Seeds = 3' --packing yade --packing lammps --output again --force --quiet",
+                                   name));
+      ASSERT_EQ(again.exit_code, 0) << again.error;
+      for (const char* const ending : {".txt", ".data"})
+        EXPECT_TRUE(content(folder.path() / fmt::format("again/packings/specimen{}", ending)) ==
+                    content(folder.path() / fmt::format("made/packings/specimen_seed_3{}", ending)))
+          << name << " " << ending;
+    }
+  EXPECT_EQ(run_feldspar(folder.path(), "specimen rock.prm --packing pfc --output none").exit_code, 2);
 }
 
 TEST(Lab, RefusesWhatItCannotDoAndLeavesNothing)

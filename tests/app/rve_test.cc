@@ -321,7 +321,7 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   };
   const std::string bad_header = "path.csv:1: the header is \"";
   expect("rve", small_cell + along_file, "strain_xx,strain_yy\n0,1e-4\n", bad_header);
-  expect("rve", small_cell + along_file, "strain_yy,strain_xx,strain_xy\n0,1e-4,0\n", bad_header);
+  expect("rve", small_cell + along_file, "strain_yy,strain_xx,strain_zz\n0,1e-4,0\n", bad_header);
   expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy\n0,1e-4\n", "path.csv:2: there must be 3");
   expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy\n0,inf,0\n",
          "path.csv:2: strain_yy: \"inf\" is not a decimal number");

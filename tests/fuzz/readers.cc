@@ -7,10 +7,10 @@
 #include "app/input/strain_path.h"
 #include "app/programme/reference_body.h"
 #include "base/checksum/seal.h"
-#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/system/hdf5_archive.h"
+#include "base/table/csv.h"
 #include "calibration/responses.h"
 #include "calibration/unknowns.h"
 #include "dem/flaws/apply.h"
@@ -368,7 +368,8 @@ const std::vector<FuzzedReader>& fuzzed_readers()
     {"table", [](Content content, Folder folder) { read_csv(write(folder / "t.csv", content), "normal_m,shear_m"); }},
     {"curve",
      [](Content content, Folder folder) {
-       read_laboratory_curves({write(folder / "c.csv", content)}, CylinderSize{0.05, 0.1});
+       const fs::path file = write(folder / "c.csv", content);
+       read_laboratory_curves({{file, CylinderSize{0.05, 0.1}}});
      }},
     {"path",
      [](Content content, Folder folder) {

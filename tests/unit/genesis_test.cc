@@ -1,5 +1,7 @@
 #include "base/input_error.h"
 #include "base/random.h"
+#include "dem/genesis/packing_export.h"
+#include "dem/genesis/packing_file.h"
 #include "dem/genesis/packing_table.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/neighbours.h"
@@ -261,7 +263,7 @@ TEST(PackingImport, ReadsTheFormsOfOtherPrograms)
   const auto grains_of = [](const std::string& text, const int dim) {
     const PackingFile file(text);
     std::vector<double> numbers;
-    for (const auto& grain : read_packing_table(file.wanted().packing_file, dim, [] {}))
+    for (const auto& grain : read_packing_table(file.wanted().packing_file, dim, 1.0, [] {}).grains)
       {
         numbers.insert(numbers.end(), grain.position.begin(), grain.position.end());
         numbers.push_back(grain.radius);
@@ -274,9 +276,12 @@ TEST(PackingImport, ReadsTheFormsOfOtherPrograms)
   for (const char* const text :
        {"0.002 0.005 0.001\n0.004 0.005 0.001\n0.006 0.004 0.0005\n",
         "#format x_y_z_r\n0.002\t0.005\t0\t0.001\n0.004\t0.005\t0\t0.001\n0.006\t0.004\t0\t0.0005\n", // YADE
+        "#format x_y_z_r_matId\n0.002\t0.005\t0\t0.001\t3\n0.004\t0.005\t0\t0.001\t3\n0.006\t0.004\t0\t0.0005\t3\n",
         "0 0.002 0.005 0.001\n1 0.004 0.005 0.001\n2 0.006 0.004 0.0005\n",
         "7 0.002 0.005 0.1 0.001\n8 0.004 0.005 0.1 0.001\n9 0.006 0.004 0.1 0.0005\n",
         "id,x [mm],y [mm],d [mm],group\n1,2,5,2,rock\n2,4,5,2,rock\n3,6,4,1,rock\n",
+        "\xef\xbb\xbfx [mm];y [mm];r [mm]\r\n2,0;5;1\r\n4;5,00;1\r\n6;4;0,5\r\n", // Excel in German
+        "0,002;0,005;0,001\n0,004;0,005;0,001\n0,006;0,004;0,0005\n",
         "\"ID\";\"Radius\";\"Y\";\"X\"\n1;0.001;0.005;0.002\n2;0.001;0.005;0.004\n3;0.0005;0.004;0.006\n",
         "start_x_m,start_y_m,start_z_m,x_m,y_m,z_m,radius_m,fragment,mineral_grain\n"
         "0.002,0.005,0,1,1,1,0.001,0,0\n0.004,0.005,0,1,1,1,0.001,0,0\n0.006,0.004,0,1,1,1,0.0005,0,0\n"})
@@ -292,19 +297,132 @@ TEST(PackingImport, ReadsTheFormsOfOtherPrograms)
         "3 1 0.0005 0.006 0.004 0.002\n",
         "LAMMPS data file via write_data\n\n3 atoms\n1 atom types\n\n0 0.01 xlo xhi\n0 0.01 ylo yhi\n0 0.01 zlo zhi\n\n"
         "Atoms # sphere\n\n1 1 0.002 2500 0.002 0.005 0.003 0 0 0\n2 1 0.002 2500 0.004 0.005 0.003 0 0 0\n"
-        "3 1 0.001 2500 0.006 0.004 0.002 0 0 0\n\nVelocities\n\n1 0 0 0 0 0 0\n"})
+        "3 1 0.001 2500 0.006 0.004 0.002 0 0 0\n\nVelocities\n\n1 0 0 0 0 0 0\n",
+        "a packing of somebody\n\n3 atoms\n1 atom types\n\n0 0.01 xlo xhi\n0 0.01 ylo yhi\n0 0.01 zlo zhi\n\n"
+        "Masses\n\n1 1\n\nAtoms # bpm/sphere\n\n1 1 1 0.002 2500 0.002 0.005 0.003\n"
+        "2 1 1 0.002 2500 0.004 0.005 0.003\n3 1 1 0.001 2500 0.006 0.004 0.002\n",
+        "LAMMPS data file\n\nAtoms # hybrid bond sphere\n\n1 1 0.002 0.005 0.003 1 0.002 2500\n"
+        "2 1 0.004 0.005 0.003 1 0.002 2500\n3 1 0.006 0.004 0.002 1 0.001 2500\n"})
     EXPECT_EQ(grains_of(text, 3), in_space) << text;
   // A box that begins elsewhere.
   EXPECT_EQ(grains_of("# LAMMPS data\n-0.5 0.5 xlo xhi\n-0.25 0.25 ylo yhi\nAtoms\n\n1 1 0.5 1 0.25 0.125 0\n", 2),
             (std::vector<double>{0.75, 0.375, 0.25}));
 }
 
+// Four grains in a row. The file bonds two that touch and two with a gap of 0.6 mm, two thirds of the mean radius, where the
+// installation gap would join none.
+TEST(PackingImport, JoinsExactlyTheGrainsThatTheFileBonds)
+{
+  const std::string atoms = "LAMMPS data file\n\n4 atoms\n3 bonds\n\nAtoms # bpm/sphere\n\n"
+                            "11 1 1 0.002 1 0.001 0.005 0\n7 1 1 0.002 1 0.003 0.005 0\n"
+                            "5 1 1 0.0014 1 0.0053 0.005 0\n9 1 1 0.002 1 0.009 0.005 0\n\nBonds\n\n1 1 7 11\n";
+  const PackingFile file(atoms + "2 1 5 7\n3 1 7 5\n");
+  const auto joined = make_specimen<2>(file.wanted(), FlatJointParameters{}, {}, 1);
+  ASSERT_EQ(joined.joints.size(), 2u); // a pair has one joint
+  std::vector<double> distances(joined.joints.rest_distance.begin(), joined.joints.rest_distance.begin() + 2);
+  std::sort(distances.begin(), distances.end());
+  EXPECT_NEAR(distances[0], 0.002, 1e-12);
+  EXPECT_NEAR(distances[1], 0.0023, 1e-12);
+  EXPECT_NEAR(joined.report.installation_gap_ratio, 0.0006 / joined.report.mean_radius, 1e-9);
+  FlatJointParameters by_number;
+  by_number.installation_gap_ratio.reset();
+  by_number.coordination_number = 2.0;
+  EXPECT_THROW(make_specimen<2>(file.wanted(), by_number, {}, 1), InputError);
+
+  EXPECT_NE(PackingFile(atoms + "2 1 9 5\n").refusal().find("a bond joins grains with a gap of 0.002 m; allowed is"),
+            std::string::npos)
+    << PackingFile(atoms + "2 1 9 5\n").refusal();
+  EXPECT_NE(PackingFile(atoms + "2 1 9 8\n").refusal().find(":16: a bond is a line of its number, its type"),
+            std::string::npos)
+    << PackingFile(atoms + "2 1 9 8\n").refusal();
+  EXPECT_NE(PackingFile(atoms + "2 1 9 9\n").refusal().find("a bond joins an atom to itself"), std::string::npos);
+  // Across the side of a periodic cell: the first and the last grain touch there.
+  SpecimenParameters periodic = PackingFile(atoms + "2 1 9 11\n").wanted();
+  periodic.shape = BodyShape::periodic;
+  const PackingFile across(atoms + "2 1 9 11\n");
+  EXPECT_EQ(make_specimen<2>(periodic, FlatJointParameters{}, {}, 1).joints.size(), 2u);
+}
+
+// In millimetres about the middle of the specimen; and a grain that has left a periodic cell by one width and two heights.
+TEST(PackingImport, BringsGrainsOfAnotherUnitOriginAndCellToTheirPlace)
+{
+  const PackingFile file("-3 0 1\n-1 0 1\n1 -1 0.5\n");
+  SpecimenParameters wanted = file.wanted();
+  wanted.packing_unit = 1e-3;
+  wanted.packing_shift = {0.005, 0.005};
+  const auto grains = read_packing<2>(wanted).grains;
+  EXPECT_NEAR(grains.position[0][0], 0.002, 1e-15);
+  EXPECT_NEAR(grains.position[1][2], 0.004, 1e-15);
+  EXPECT_NEAR(grains.radius[2], 0.0005, 1e-15);
+  wanted.packing_shift = {0.005};
+  EXPECT_THROW(read_packing<2>(wanted), InputError);
+
+  const PackingFile outside("0.002 0.005 0.001\n0.014 -0.015 0.001\n");
+  wanted = outside.wanted();
+  EXPECT_NE(outside.refusal().find("lies outside the specimen"), std::string::npos);
+  wanted.shape = BodyShape::periodic;
+  const auto wrapped = read_packing<2>(wanted).grains;
+  EXPECT_NEAR(wrapped.position[0][1], 0.004, 1e-15);
+  EXPECT_NEAR(wrapped.position[1][1], 0.005, 1e-15);
+  EXPECT_NE(PackingFile("0.002 0.005 0.001\n20 0.005 0.001\n").refusal(BodyShape::periodic).find("lies outside"),
+            std::string::npos);
+}
+
+/// All numbers of grains and the pairs of joints, in their order.
+template <int dim>
+std::vector<double> grains_and_joints(const Specimen<dim>& specimen)
+{
+  std::vector<double> all(specimen.grains.radius.begin(), specimen.grains.radius.end());
+  for (const auto& component : specimen.grains.position)
+    all.insert(all.end(), component.begin(), component.end());
+  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
+    all.insert(all.end(), {double(specimen.joints.grain_1[j]), double(specimen.joints.grain_2[j])});
+  return all;
+}
+
+// To the last bit: numbers are written with all their digits, and grains that are in order stay so.
+TEST(PackingExport, ComesBackAsItWentOut)
+{
+  const auto expect_same = [](const auto& specimen, SpecimenParameters wanted, const FlatJointParameters& joint) {
+    constexpr int dim = int(std::decay_t<decltype(specimen.grains.position)>().size());
+    for (const PackingForm& form : packing_forms)
+      {
+        const std::string text = packing_text(specimen, form.name);
+        const PackingFile file(text);
+        wanted.packing_file = file.wanted().packing_file;
+        const auto back = make_specimen<dim>(wanted, joint, {}, specimen.seed);
+        EXPECT_TRUE(grains_and_joints(back) == grains_and_joints(specimen)) << form.name;
+        EXPECT_TRUE(packing_text(back, form.name) == text) << form.name;
+      }
+  };
+  SpecimenParameters wanted;
+  wanted.width = 0.01;
+  wanted.height = 0.02;
+  wanted.shape = BodyShape::periodic;
+  const FlatJointParameters by_gap;
+  expect_same(make_specimen<2>(wanted, by_gap, {}, 3), wanted, by_gap);
+  wanted.shape = BodyShape::box;
+  expect_same(make_specimen<2>(wanted, by_gap, {}, 3), wanted, by_gap);
+  wanted.dimension = 3;
+  wanted.porosity = porosity_in_space;
+  wanted.shape = BodyShape::cylinder;
+  wanted.minimum_radius = 1e-3;
+  expect_same(make_specimen<3>(wanted, by_gap, {}, 3), wanted, by_gap);
+}
+
 TEST(PackingImport, RefusesFormsThatItCannotRead)
 {
+  EXPECT_NE(PackingFile("x [mm];y [mm];r [mm]\n2,5;5;1\n4.5;5;1\n").refusal().find(":3: \"4.5\" has another decimal"),
+            std::string::npos);
+  EXPECT_NE(PackingFile("x,y,r\n0,002,0,005,0,001\n").refusal().find(":2: 6 numbers found; there must be 3"),
+            std::string::npos);
+  EXPECT_NE(PackingFile("LAMMPS\nAtoms # hybrid sphere dipole\n1 1 1 1 1 1 1\n").refusal().find("a hybrid with"),
+            std::string::npos);
   EXPECT_NE(
     PackingFile("id x y\n1 2 3\n").refusal().find(":1: there is no column radius; there must be x, y and radius"),
     std::string::npos);
-  EXPECT_NE(PackingFile("x [in] y r\n1 2 3\n").refusal().find("\"in\" is not a unit of length"), std::string::npos);
+  EXPECT_NE(PackingFile("x [kg] y r\n1 2 3\n").refusal().find(":1: \"kg\" is not the unit of a length"),
+            std::string::npos);
   EXPECT_NE(PackingFile("ITEM: ATOMS id xs ys radius\n1 0.1 0.2 0.001\n").refusal().find("there is no column x"),
             std::string::npos);
   EXPECT_NE(PackingFile("LAMMPS\nAtoms # bond\n1 1 1 1 1 1 1\n").refusal().find("it must be sphere"),

@@ -50,6 +50,8 @@ subsection Specimen
   set Cells across = 1
   set Cells along = 1
   set Packing file = grains.txt
+  set Packing unit = 1 mm
+  set Packing shift = 27, 54 mm
   set Specimen file = none
   set Joint law = flat joint
 end
@@ -333,6 +335,9 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.specimen.bulk_density, 2650.0);
   EXPECT_EQ(input.specimen.packing_stress_ratio, 4e-4);
   EXPECT_EQ(input.specimen.packing_file, (folder.path() / "grains.txt").string());
+  EXPECT_DOUBLE_EQ(input.specimen.packing_unit, 1e-3);
+  EXPECT_EQ(input.specimen.packing_shift.size(), 2u);
+  EXPECT_DOUBLE_EQ(input.specimen.packing_shift.back(), 0.054);
   EXPECT_EQ(input.specimen.specimen_file, "");
 
   EXPECT_EQ(input.flat_joint.n_segments, 3u);
@@ -726,10 +731,14 @@ TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
   EXPECT_EQ(
     labels(entries + "set Values = 0.2; 0.6 || 80 MPa; 0.12 GPa\n"),
     (std::vector{named("0.2", "80 MPa"), named("0.2", "0.12 GPa"), named("0.6", "80 MPa"), named("0.6", "0.12 GPa")}));
+  EXPECT_EQ(labels(entries + "set Values = 0.2..0.6 step 0.4 || 80..120 MPa step 40\n").size(), 4u);
   EXPECT_EQ(labels(entries + "set Values = 0.2; 0.6 || 80 MPa; 0.12 GPa\nset Combine = in step\n"),
             (std::vector{named("0.2", "80 MPa"), named("0.6", "0.12 GPa")}));
   folder.write("plan.csv", "Flat joint/Friction, Flat joint/Bond cohesion\n0.2, 80 MPa\n0.6, 0.12 GPa\n");
   EXPECT_EQ(labels("set Table = plan.csv\n"), (std::vector{named("0.2", "80 MPa"), named("0.6", "0.12 GPa")}));
+
+  folder.write("german.csv", "Flat joint/Friction;Flat joint/Bond cohesion [MPa]\n0,2;80,5\n0,6;120\n");
+  EXPECT_EQ(labels("set Table = german.csv\n"), (std::vector{named("0.2", "80.5 MPa"), named("0.6", "120 MPa")}));
 
   // Units in the header, as in tests.csv of a run, which has a row for each test and columns of results.
   const std::vector<std::string> two{named("0.2", "80 MPa"), named("0.6", "120 MPa")};

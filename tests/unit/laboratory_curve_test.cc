@@ -1,8 +1,9 @@
 // Tables as testing machines, spreadsheets and programs for statistics write them, and the curves that they hold.
 
 #include "app/input/laboratory_curve.h"
-#include "base/csv.h"
 #include "base/input_error.h"
+#include "base/table/csv.h"
+#include "dem/lab/protocols/protocols.h"
 #include "results/fits/strength_data.h"
 #include "results/fits/strength_envelopes.h"
 #include "tests/temporary_folder.h"
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -73,9 +75,10 @@ std::string in_utf16(const std::string& text)
 class LaboratoryCurve : public testing::Test
 {
 protected:
-  Series read(const std::string& text, const std::optional<CylinderSize>& size = {}) const
+  Series read(const std::string& text, const std::optional<CylinderSize>& size = {},
+              const std::optional<TestKind>& kind = {}) const
   {
-    return read_laboratory_curves({folder.write("core.csv", text)}, size);
+    return read_laboratory_curves({{folder.write("core.csv", text), size, kind}});
   }
 
   /// Strength 120 MPa, modulus 50 GPa, and Poisson's ratio 0.25 where the curve has lateral strains.
@@ -191,6 +194,68 @@ TEST_F(LaboratoryCurve, OfForcesAndDisplacementsNeedsTheSizeOfItsCylinder)
     EXPECT_THROW(parse_cylinder_size(wrong), InputError) << wrong;
 }
 
+// Strength 8 MPa at E = 40 GPa and ν = 0.2: tension is the positive or the negative sign, by the file.
+TEST_F(LaboratoryCurve, OfDirectTensionHasEitherSign)
+{
+  const auto curve = [](const std::string& header, const double of_strain, const double of_stress) {
+    std::string text = header + "\n";
+    for (int k = 0; k <= 84; ++k)
+      {
+        const double stress = k <= 80 ? 0.1 * k : 8.0 - 2.0 * (k - 80);
+        const double strain = k / 80.0 * 8.0 / 40e3 * 100.0;
+        text +=
+          fmt::format("{:.9f},{:.9f},{:.9f}\n", of_strain * strain, -0.2 * of_strain * strain, of_stress * stress);
+      }
+    return text;
+  };
+  const std::string tensile = "Tensile strain [%],Lateral strain [%],Tensile stress [MPa]";
+  const std::string axial = "Axial strain [%],Lateral strain [%],Axial stress [MPa]";
+  for (const auto& series :
+       {read(curve(tensile, 1.0, 1.0)), read(curve(tensile, -1.0, 1.0)),
+        read(curve(axial, 1.0, 1.0), {}, direct_tension.kind), read(curve(axial, -1.0, -1.0), {}, direct_tension.kind)})
+    {
+      const FinishedTest& test = series.tests.front();
+      EXPECT_EQ(test.record.kind.name, "direct_tension");
+      EXPECT_NEAR(test.results.peak_stress.value.value(), 8e6, 1.0);
+      EXPECT_NEAR(test.results.youngs_modulus_initial.value.value(), 40e9, 1e-6 * 40e9);
+      EXPECT_NEAR(test.results.poissons_ratio_initial.value.value(), 0.2, 1e-6);
+      EXPECT_FALSE(test.results.crack_damage_stress.value);
+      EXPECT_NE(test.results.crack_damage_stress.reason, "");
+    }
+  refuse(curve(axial, -1.0, -1.0), "a specimen that is pulled needs --curve-test direct_tension");
+}
+
+// 2P/(πDt) of a disc of 50 x 25 mm: 19.63 kN are 10 MPa. The halves carry more than the disc did.
+TEST_F(LaboratoryCurve, OfASplitDiscEndsAtTheFallOfItsLoad)
+{
+  const double load = 10e6 * std::numbers::pi * 0.05 * 0.025 / 2.0;
+  std::string text = "Displacement (mm),Load (kN)\n";
+  for (int k = 0; k <= 50; ++k)
+    text += fmt::format("{:.6f},{:.6f}\n", 0.004 * k, load / 1e3 * k / 50.0 * (k == 30 ? 0.98 : 1.0)); // noise
+  for (int k = 0; k < 40; ++k)
+    text += fmt::format("{:.6f},{:.6f}\n", 0.2 + 0.004 * k, load / 1e3 * (0.3 + 0.02 * k));
+  const CylinderSize disc{0.05, 0.025};
+  const Series series = read(text, disc, brazilian.kind);
+  const TestResults& results = series.tests.front().results;
+  EXPECT_NEAR(results.peak_stress.value.value(), 10e6, 10.0);
+  EXPECT_NEAR(results.strain_at_peak.value.value(), 0.2 / 50.0, 1e-9);
+  EXPECT_FALSE(results.youngs_modulus_initial.value);
+  EXPECT_EQ(results.youngs_modulus_initial.reason, "the stress in this test is not uniform");
+  EXPECT_TRUE(results.is_valid());
+  refuse(text, "a disc that is split needs --curve-test brazilian", disc);
+  EXPECT_EQ(read("strain [%],Splitting stress [MPa]\n0,0\n0.1,6\n0.2,9\n").tests.front().record.kind.name, "brazilian");
+}
+
+TEST(MeasuredCurves, HaveTheirSizesAndTestsInTheirOrder)
+{
+  const auto curves = measured_curves({"a", "b"}, {"50, 100 mm", "54, 27 mm"}, {"triaxial_compression", "brazilian"});
+  EXPECT_EQ(curves[1].size->height, 0.027);
+  EXPECT_EQ(curves[1].kind->name, "brazilian");
+  EXPECT_EQ(measured_curves({"a", "b"}, {"50, 100 mm"}, {})[1].size->height, 0.1);
+  EXPECT_THROW(measured_curves({"a", "b", "c"}, {"50, 100 mm", "54, 27 mm"}, {}), InputError);
+  EXPECT_THROW(measured_curves({"a"}, {}, {"tension"}), InputError);
+}
+
 TEST_F(LaboratoryCurve, UnderPressureBeginsWhereThePressureIsReached)
 {
   std::string text = "axial_strain [%],deviator_stress [MPa],confining_pressure [MPa]\n";
@@ -211,10 +276,28 @@ TEST_F(LaboratoryCurve, UnderPressureBeginsWhereThePressureIsReached)
   EXPECT_NE(series.problems[2].find("strains are counted from row 1"), std::string::npos) << series.problems[2];
 }
 
+// Both are less than 1 % of the peak stress; what wavers around zero is the noise of the cell.
+TEST_F(LaboratoryCurve, KeepsASmallPressureThatIsHeld)
+{
+  const auto pressure_of = [&](const std::function<double(int)>& cell) {
+    int k = 0;
+    const Series series =
+      read(table("axial_strain [%],axial_stress [MPa],confining_pressure [MPa]", [&](const Row& row) {
+        return fmt::format("{:.9f},{:.9f},{:.6f}", row.strain, row.stress, cell(++k));
+      }));
+    return series.tests.front().record.confining_pressure;
+  };
+  EXPECT_EQ(pressure_of([](int) { return 0.5; }), 0.5e6);
+  EXPECT_NEAR(pressure_of([](const int k) { return 0.5 + 0.04 * std::sin(k); }), 0.5e6, 1e3);
+  EXPECT_EQ(pressure_of([](const int k) { return 0.5 * std::sin(k); }), 0.0);
+  EXPECT_EQ(pressure_of([](const int k) { return 0.3 + 0.3 * std::sin(k); }), 0.0);
+  EXPECT_EQ(pressure_of([](int) { return 0.0; }), 0.0);
+}
+
 // Peaks on a curve of Hoek and Brown of an intact rock, σ_ci = 100 MPa and m = 12: the fit finds both.
 TEST_F(LaboratoryCurve, OfSeveralTestsGivesAnEnvelope)
 {
-  std::vector<std::filesystem::path> files;
+  std::vector<MeasuredCurve> files;
   for (const double pressure : {0.0, 5.0, 10.0, 20.0, 40.0})
     {
       const double strength = pressure + 100.0 * std::sqrt(12.0 * pressure / 100.0 + 1.0);
@@ -222,11 +305,16 @@ TEST_F(LaboratoryCurve, OfSeveralTestsGivesAnEnvelope)
       for (const Row& row : rows())
         text +=
           fmt::format("{:.9f},{:.9f},{}\n", row.strain, pressure + (strength - pressure) * row.stress / ucs, pressure);
-      files.push_back(folder.write(fmt::format("tri{:g}.csv", pressure), text));
+      files.push_back({folder.write(fmt::format("tri{:g}.csv", pressure), text)});
     }
+  // The curve meets σ_1 = 0 at t² + 12 t - 1 = 0 with t = σ_t/σ_ci.
+  const double tensile = 100.0 * (std::sqrt(37.0) - 6.0); // [MPa]
+  files.push_back({folder.write(
+    "pull.csv", fmt::format("tensile strain [%],tensile stress [MPa]\n0,0\n0.005,4\n0.01,{}\n0.011,1\n", tensile))});
   const Series series = read_laboratory_curves(files);
   EXPECT_EQ(series.label, "measured curves");
-  ASSERT_EQ(series.tests.size(), 5u);
+  ASSERT_EQ(series.tests.size(), 6u);
+  EXPECT_NEAR(strength_data(series.tests).tensile_strength.value(), 1e6 * tensile, 1.0);
   EXPECT_EQ(series.tests[2].name, "tri10");
   const StrengthEnvelopes envelopes = fit_strength_envelopes(strength_data(series.tests));
   const auto* const fit = envelopes.representative();
@@ -264,6 +352,51 @@ TEST(CsvReader, TakesQuotesOffAsRfc4180Says)
   EXPECT_EQ(table.number(1), 3.0);
   EXPECT_EQ(table.line_of_row(), 7u);
   EXPECT_FALSE(table.next());
+}
+
+// 1,234 is 1.234 in German and 1234 in English; any other number of the file may tell which.
+TEST(CsvReader, TakesNoCommaForADecimalSignThatMayStandBetweenThousands)
+{
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& numbers) {
+    return read_csv(folder.write("t.csv", "a;b\n" + numbers + "\n"), "a,b");
+  };
+  for (const char* const clear : {"0,234", "-0,234", "12,34", "1,2345", "1,23", "1234,567", "1,234e2"})
+    EXPECT_EQ(read(fmt::format("1,234;2\n3;{}", clear))[0][0], 1.234) << clear;
+  EXPECT_EQ(read("0,5;1,234")[0][1], 1.234);
+  for (const char* const unclear : {"1,234;2", "5;-12,345\n100,000;7", "1,234;2\n3;0.5"})
+    try
+      {
+        read(unclear);
+        ADD_FAILURE() << unclear;
+      }
+    catch (const InputError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("; write thousands without a comma"), std::string::npos)
+          << error.what();
+      }
+  try
+    {
+      read("5;0\n7;-12,345");
+    }
+  catch (const InputError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("t.csv:3: b: \"-12,345\" may mean -12.345 or -12345"), std::string::npos)
+        << error.what();
+    }
+}
+
+// Quotes counted anew with each line that is added would read some 10^12 characters here, for minutes.
+TEST(CsvReader, FindsThatAQuoteIsNotClosedInOnePass)
+{
+  const TemporaryFolder folder;
+  std::string text = "a,b\n1,\"2\n";
+  for (int k = 0; k < 500000; ++k)
+    text += "1,2\n3,4\n";
+  const auto file = folder.write("t.csv", text);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(read_csv(file, "a,b"), InputError);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
 TEST(CsvReader, FindsColumnsInAnyOrderButNoOthers)

@@ -283,7 +283,8 @@ TEST(LoadingTable, IsRefusedByStageAndReason)
 {
   EXPECT_EQ(error_of("axial_strain,speed\n1e-3,2\n"),
             "stages.csv:1: \"speed\" is no column of a loading table; they are axial_strain, axial_stress_Pa, hold_s, "
-            "confining_pressure_Pa, strain_rate_per_s, lateral_strain");
+            "confining_pressure_Pa, strain_rate_per_s, lateral_strain, or have their unit in brackets, as in "
+            "\"axial_stress [MPa]\"");
   const std::string header = "axial_strain,axial_stress_Pa,hold_s,confining_pressure_Pa,strain_rate_per_s\n";
   EXPECT_EQ(error_of(header), "stages.csv: there is no stage below the header");
   EXPECT_EQ(error_of(header + "1e-3,,,,\n1e-3,2e6,,,\n"),

@@ -1,4 +1,4 @@
-#include "app/input/quantity.h"
+#include "base/table/quantity.h"
 
 #include "base/input_error.h"
 #include "tests/temporary_folder.h"
@@ -129,6 +129,32 @@ TEST(Quantity, ListHasItsUnitAtTheEnd)
   EXPECT_EQ(parse_quantities("5 MPa", stress), (std::vector<double>{5e6}));
   for (const char* text : {"5, 10, 20", "5 MPa, 10 MPa", "5,, 20 MPa", "5, 20 MPa,", "5 10 MPa", ""})
     EXPECT_NE(error_of([&] { parse_quantities(text, stress); }), "") << text;
+}
+
+TEST(Quantity, ListMayHaveRanges)
+{
+  const std::vector<double> pressures{10e6, 20e6, 30e6};
+  EXPECT_EQ(parse_quantities("10..30 MPa step 10", stress), pressures);
+  EXPECT_EQ(parse_quantities("10..30 step 10 MPa", stress), pressures);
+  EXPECT_EQ(parse_quantities("30..10 MPa step -10", stress), (std::vector<double>{30e6, 20e6, 10e6}));
+  EXPECT_EQ(parse_quantities("1, 5..15 step 5, 40 MPa", stress), (std::vector<double>{1e6, 5e6, 10e6, 15e6, 40e6}));
+  // The same bits as written out: 3 times 0.1 is not 0.3 in binary.
+  EXPECT_EQ(values_of_range("0.1..0.4 step 0.1"), (std::vector<std::string>{"0.1", "0.2", "0.3", "0.4"}));
+  EXPECT_EQ(values_of_range("2 .. 2 step 1"), (std::vector<std::string>{"2"}));
+  EXPECT_EQ(values_of_range("../rock.h5"), (std::vector<std::string>{"../rock.h5"}));
+  const auto refusal = [](const char* const text) { return error_of([&] { parse_quantities(text, stress); }); };
+  EXPECT_EQ(refusal("10..30 MPa"),
+            "\"10..30 MPa\": the step is missing; a range is written as in \"10..60 MPa step 10\"");
+  for (const auto& [text, words] : {std::pair("10..30 MPa step 0", "the step is 0"),
+                                    {"10..30 MPa step -10", "the step leads away from the last value"},
+                                    {"30..10 MPa step 10", "the step leads away from the last value"},
+                                    {"10..35 MPa step 10", "no whole number of steps"},
+                                    {"0..1 MPa step 1e-9", "more than 10000 values"},
+                                    {"10..x MPa step 10", "\"x\" is not a decimal number"},
+                                    {"10..30 MPa step 10 MPa", "the unit stands once"},
+                                    {"10..30 MPa step 10, 40 MPa", "the unit stands once"},
+                                    {"10..30 step 10", "a unit is missing"}})
+    EXPECT_NE(refusal(text).find(words), std::string::npos) << text << ": " << refusal(text);
 }
 
 TEST(Quantity, IsWrittenAsItIsRead)

@@ -1,7 +1,7 @@
 #include "app/input/maps/traces.h"
 
-#include "base/csv.h"
 #include "base/input_error.h"
+#include "base/table/csv.h"
 #include "base/text.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,9 @@
-#include "base/csv.h"
+#include "base/table/csv.h"
 
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
+#include "base/table/quantity.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace feldspar
 {
@@ -35,23 +37,6 @@ std::string from_utf16(std::string content, const std::string& name)
     throw InputError(fmt::format("{}: begins as UTF-16 and is not; save it as UTF-8", name));
   result.resize(result.size() - n_out);
   return result;
-}
-
-/// The file as UTF-8, without a byte-order mark.
-std::unique_ptr<std::istream> open_text(const std::filesystem::path& file)
-{
-  auto stream = std::make_unique<ReadableFile>(file);
-  std::array<char, 3> first{};
-  stream->read(first.data(), first.size());
-  const std::string_view mark(first.data(), std::size_t(stream->gcount()));
-  if (mark.starts_with("\xff\xfe") || mark.starts_with("\xfe\xff"))
-    return std::make_unique<std::istringstream>(from_utf16(content_of(file), file.string()));
-  if (mark != "\xef\xbb\xbf")
-    {
-      stream->clear();
-      stream->seekg(0);
-    }
-  return stream;
 }
 
 /// Tabs and semicolons stand in no name of a column; commas may, as in "Spannung, MPa;Dehnung".
@@ -97,11 +82,50 @@ std::vector<std::string_view> split(std::string& line, const char separator)
   return found;
 }
 
+/// Returns whether the comma of a number may stand between thousands: 1,234, but neither 0,234 nor 12,34 nor 1234,567.
+bool is_perhaps_of_thousands(const std::string_view cell)
+{
+  const std::string_view digits = cell.substr(cell.starts_with('-') || cell.starts_with('+'));
+  const std::size_t comma = digits.find(',');
+  return comma >= 1 && comma <= 3 && digits.size() == comma + 4 && !digits.starts_with('0') &&
+         std::ranges::count_if(digits, [](const char c) { return '0' <= c && c <= '9'; }) == std::ptrdiff_t(comma + 3);
+}
+
+std::string with_points(const std::string_view cell)
+{
+  std::string text(cell);
+  std::replace(text.begin(), text.end(), ',', '.');
+  return text;
+}
+
+std::string without_commas(const std::string_view cell)
+{
+  std::string text(cell);
+  std::erase(text, ',');
+  return text;
+}
+
 bool is_blank(const std::vector<std::string_view>& cells)
 {
   return std::all_of(cells.begin(), cells.end(), [](const std::string_view cell) { return cell.empty(); });
 }
 } // namespace
+
+std::unique_ptr<std::istream> open_text(const std::filesystem::path& file)
+{
+  auto stream = std::make_unique<ReadableFile>(file);
+  std::array<char, 3> first{};
+  stream->read(first.data(), first.size());
+  const std::string_view mark(first.data(), std::size_t(stream->gcount()));
+  if (mark.starts_with("\xff\xfe") || mark.starts_with("\xfe\xff"))
+    return std::make_unique<std::istringstream>(from_utf16(content_of(file), file.string()));
+  if (mark != "\xef\xbb\xbf")
+    {
+      stream->clear();
+      stream->seekg(0);
+    }
+  return stream;
+}
 
 CsvReader::CsvReader(const std::filesystem::path& file, const IsHeader& is_header)
   : name(file.string())
@@ -130,6 +154,7 @@ CsvReader::CsvReader(const std::filesystem::path& file, const IsHeader& is_heade
           cell.empty() ? cell : std::string_view(names).substr(std::size_t(cell.data() - line.data()), cell.size()));
     }
   is_below_preamble = true;
+  units.assign(columns.size(), 1.0);
 }
 
 /// The next line with something on it, to its end outside of quotes.
@@ -143,13 +168,14 @@ bool CsvReader::read_line()
     }
   while (trim(line).empty() || (is_below_preamble && line.starts_with('#')));
   const std::size_t first_line = line_number;
+  const auto opens_or_closes = [](const std::string& text) { return std::ranges::count(text, '"') % 2 == 1; };
   std::string more;
-  while (is_below_preamble && std::count(line.begin(), line.end(), '"') % 2 == 1)
+  for (bool is_open = is_below_preamble && opens_or_closes(line); is_open; is_open = is_open != opens_or_closes(more))
     {
       if (!std::getline(*stream, more))
         throw InputError(fmt::format("{}:{}: a double quote is opened and not closed", name, first_line));
       ++line_number;
-      line += '\n' + more;
+      (line += '\n') += more;
     }
   return true;
 }
@@ -167,12 +193,50 @@ std::size_t CsvReader::place(const std::string_view column) const
   return std::size_t(found - columns.begin());
 }
 
+std::optional<std::size_t> CsvReader::find_in_si(const std::string_view name_in_si)
+{
+  constexpr std::pair<std::string_view, const Dimension*> endings[] = {
+    {"_Pa", &stress}, {"_m", &length}, {"_rad", &angle}, {"_per_s", &rate}, {"_s", &duration}, {"", &strain}};
+  const auto& [ending, dimension] =
+    *std::ranges::find_if(endings, [&](const auto& one) { return name_in_si.ends_with(one.first); });
+  const std::string wanted = plain_name(name_in_si.substr(0, name_in_si.size() - ending.size()));
+  std::optional<std::size_t> found;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    {
+      const auto [name_of_column, unit] = title_with_mark_of(columns[c]);
+      const auto refusal = [&](const std::string_view what) {
+        return InputError(fmt::format("{}:{}: {}: {}", name, header_line, in_quotes(columns[c]), what));
+      };
+      const bool is_in_si = plain_name(columns[c]) == plain_name(name_in_si);
+      if (!is_in_si && plain_name(name_of_column) != wanted)
+        continue;
+      if (found)
+        throw refusal("is there twice");
+      if (!is_in_si && unit.empty())
+        throw refusal(fmt::format("has no unit; write it as in \"{} [{}]\"", wanted, dimension->si_unit));
+      found = c;
+      try
+        {
+          units[c] = is_in_si ? 1.0 : unit_in_si(unit, *dimension);
+        }
+      catch (const InputError& error)
+        {
+          throw refusal(error.what());
+        }
+    }
+  return found;
+}
+
 bool CsvReader::next()
 {
   do
     {
       if (!read_line())
-        return false;
+        {
+          if (!ambiguous.empty())
+            throw InputError(ambiguous);
+          return false;
+        }
       cells = split(line, separator);
     }
   while (is_blank(cells));
@@ -183,6 +247,15 @@ bool CsvReader::next()
                                  columns.size(), excerpt(fmt::format("{}", fmt::join(columns, ",")), longest_quote),
                                  cells.size()));
   return true;
+}
+
+std::string CsvReader::text_with_point(const std::size_t column) const
+{
+  const std::string_view cell = cells[column];
+  if (separator == ',' || !is_decimal_number(with_points(cell)))
+    return std::string(cell);
+  number(column); // which checks the decimal sign
+  return with_points(cell);
 }
 
 double CsvReader::number(const std::size_t column) const
@@ -196,15 +269,24 @@ double CsvReader::number(const std::size_t column) const
                                                                                    : char(0);
   if (sign != 0 && decimal_sign != 0 && sign != decimal_sign)
     throw refusal(fmt::format("{} has another decimal sign than the numbers before it", in_quotes(cell)));
-  if (sign != 0)
-    decimal_sign = sign;
+  const std::string with_point = sign == ',' ? with_points(cell) : std::string(cell);
+  if (sign == ',' && decimal_sign == 0 && is_perhaps_of_thousands(cell))
+    {
+      if (ambiguous.empty()) // until a number of the file shows its decimal sign
+        ambiguous = refusal(fmt::format("{} may mean {} or {}; write thousands without a comma, and a decimal point",
+                                        in_quotes(cell), with_point, without_commas(cell)))
+                      .what();
+    }
+  else if (sign == '.' && !ambiguous.empty())
+    throw InputError(ambiguous);
+  else if (sign != 0)
+    {
+      decimal_sign = sign;
+      ambiguous.clear();
+    }
   try
     {
-      if (sign != ',')
-        return parse_number(cell);
-      std::string with_point(cell);
-      std::replace(with_point.begin(), with_point.end(), ',', '.');
-      return parse_number(with_point);
+      return units[column] * parse_number(with_point);
     }
   catch (const InputError& error)
     {
@@ -232,19 +314,21 @@ double CsvReader::count(const std::size_t column, const double most) const
 std::vector<std::vector<double>> read_csv(const std::filesystem::path& file, const std::string_view header)
 {
   CsvReader table(file);
-  const auto wanted = split_at_commas(header);
+  std::vector<std::size_t> places;
+  for (const std::string_view name : split_at_commas(header))
+    if (const auto place = table.find_in_si(name))
+      places.push_back(*place);
   const auto& given = table.header();
-  if (!std::all_of(wanted.begin(), wanted.end(), [&](const auto name) { return table.has(name); }) ||
-      std::size_t(std::count_if(given.begin(), given.end(), [](const auto name) { return !name.empty(); })) !=
-        wanted.size())
+  const auto n_given = std::size_t(std::ranges::count_if(given, [](const auto name) { return !name.empty(); }));
+  if (places.size() != split_at_commas(header).size() || places.size() != n_given)
     throw InputError(fmt::format("{}:{}: the header is {}; it must be \"{}\"", file.string(), table.line_of_header(),
                                  in_quotes(fmt::format("{}", fmt::join(given, ","))), header));
   std::vector<std::vector<double>> rows;
   while (table.next())
     {
       std::vector<double>& row = rows.emplace_back();
-      for (const std::string_view name : wanted)
-        row.push_back(table.number(table.place(name)));
+      for (const std::size_t place : places)
+        row.push_back(table.number(place));
     }
   if (rows.empty())
     throw InputError(fmt::format("{}: there is no row below the header", file.string()));
@@ -258,5 +342,22 @@ ColumnTitle title_of(const std::string_view column)
   if (open == std::string_view::npos)
     return {column, {}};
   return {trim(column.substr(0, open)), trim(column.substr(open + 1, column.size() - open - 2))};
+}
+
+ColumnTitle title_with_mark_of(const std::string_view column)
+{
+  const ColumnTitle title = title_of(column);
+  const std::size_t mark = column.find_last_of("/,");
+  if (!title.unit.empty() || mark == std::string_view::npos)
+    return title;
+  // "axial strain mm/mm" has no mark before its unit
+  return {trim(column.substr(0, mark)), trim(column.substr(mark + 1))};
+}
+
+std::string plain_name(const std::string_view name)
+{
+  std::string plain = in_small_letters(trim(name));
+  std::replace(plain.begin(), plain.end(), '_', ' ');
+  return plain;
 }
 } // namespace feldspar

@@ -25,6 +25,9 @@ inline constexpr Dimension angle{"an angle", "rad", "10 deg"};
 inline constexpr Dimension density{"a density", "kg/m^3", "2700 kg/m^3"};
 inline constexpr Dimension plane_stiffness{"a stress per displacement", "Pa/m", "50 GPa/mm"};
 inline constexpr Dimension rate{"a rate", "1/s", "0.5 1/s"};
+inline constexpr Dimension duration{"a time", "s", "2 ms"};
+inline constexpr Dimension strain{"a strain", "1", "0.1 %"};
+inline constexpr Dimension force{"a force", "N", "200 kN"};
 
 /// Returns a number in SI as it is. Throws InputError for a size that no rock, body or test has: such numbers overflow or
 /// vanish in products.
@@ -33,8 +36,16 @@ double with_usual_exponent(double value);
 /// One number, one space and one unit expression; returned in SI.
 double parse_quantity(std::string_view text, const Dimension& dimension);
 
-/// Numbers separated by commas with one unit at the end; returned in SI.
+/// Numbers, and ranges of them such as 10..60 step 10, separated by commas, with one unit at the end; returned in SI.
 std::vector<double> parse_quantities(std::string_view text, const Dimension& dimension);
+
+/// The values that a range such as `10..60 MPa step 10` stands for, each with its unit: from the first by whole steps to the
+/// last. A text that does not begin with a number and two dots is a value by itself. Throws InputError.
+std::vector<std::string> values_of_range(std::string_view text);
+
+/// A unit as it stands in the header of a table, in SI; strains may have none of it ("-"), or µε, mm/mm or 1e-6. Throws
+/// InputError.
+double unit_in_si(std::string_view unit, const Dimension& dimension);
 
 /// A value given in `unit`, in SI.
 double to_si(double value, std::string_view unit, const Dimension& dimension);

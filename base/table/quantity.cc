@@ -1,4 +1,4 @@
-#include "app/input/quantity.h"
+#include "base/table/quantity.h"
 
 #include "base/input_error.h"
 #include "base/quoted.h"
@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
 #include <clocale>
 #include <cmath>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
 namespace feldspar
 {
@@ -194,23 +196,81 @@ double parse_quantity(const std::string_view text, const Dimension& dimension)
   return with_usual_exponent(to_si(parse_number(text.substr(0, space)), text.substr(space + 1), dimension));
 }
 
+std::vector<std::string> values_of_range(const std::string_view text)
+{
+  constexpr double most_values = 10000.0;
+  constexpr std::string_view step_word = " step ";
+  const std::size_t dots = text.find("..");
+  const std::string_view first = trim(text.substr(0, dots));
+  if (dots == std::string_view::npos || !is_decimal_number(first))
+    return {std::string(text)};
+  const auto refusal = [&](const std::string_view what) {
+    return InputError(fmt::format("{}: {}; a range is written as in \"10..60 MPa step 10\"", in_quotes(text), what));
+  };
+  const std::string_view rest = trim(text.substr(dots + 2));
+  const std::size_t word = rest.find(step_word);
+  if (word == std::string_view::npos)
+    throw refusal("the step is missing");
+  const auto number_and_unit = [&](const std::string_view piece) {
+    const std::size_t space = std::min(piece.find(' '), piece.size());
+    if (!is_decimal_number(piece.substr(0, space)))
+      throw refusal(fmt::format("{} is not a decimal number", in_quotes(piece.substr(0, space))));
+    return std::pair(piece.substr(0, space), trim(piece.substr(space)));
+  };
+  const auto [last, unit_of_last] = number_and_unit(trim(rest.substr(0, word)));
+  const auto [step, unit_of_step] = number_and_unit(trim(rest.substr(word + step_word.size())));
+  if (!unit_of_last.empty() && !unit_of_step.empty())
+    throw refusal("the unit stands once, after the last number or the step");
+  const std::string_view unit = unit_of_last.empty() ? unit_of_step : unit_of_last;
+  const double begin = parse_number(first);
+  const double by = parse_number(step);
+  const double n_steps = (parse_number(last) - begin) / by;
+  if (by == 0.0)
+    throw refusal("the step is 0");
+  if (n_steps < 0.0)
+    throw refusal("the step leads away from the last value");
+  if (!(n_steps < most_values))
+    throw refusal(fmt::format("more than {:.0f} values", most_values));
+  if (std::abs(n_steps - std::round(n_steps)) > 1e-9 * std::max(1.0, n_steps)) // decimal fractions are not exact
+    throw refusal("the last value is no whole number of steps from the first");
+  std::vector<std::string> values;
+  for (long k = 0; k <= std::lround(n_steps); ++k)
+    values.push_back(format_number(begin + double(k) * by) + (unit.empty() ? "" : fmt::format(" {}", unit)));
+  return values;
+}
+
 std::vector<double> parse_quantities(const std::string_view text, const Dimension& dimension)
 {
   if (text.find(';') != std::string_view::npos)
     throw InputError("numbers are separated by commas and the unit stands once, e.g. \"5, 10, 20 MPa\"");
-  std::vector<std::string_view> numbers = split_at_commas(text);
-  const std::string_view last = numbers.back();
-  const std::size_t space = find_space(last, dimension);
-  numbers.back() = last.substr(0, space);
+  const std::vector<std::string_view> pieces = split_at_commas(text);
+  const std::string last = values_of_range(pieces.back()).back();
+  const std::string unit = last.substr(find_space(last, dimension));
   std::vector<double> values;
-  values.reserve(numbers.size());
-  for (const std::string_view number : numbers)
-    {
-      if (number.find(' ') != std::string_view::npos)
-        throw InputError(fmt::format("{}: the unit stands once, after the last number", in_quotes(number)));
-      values.push_back(with_usual_exponent(to_si(parse_number(number), last.substr(space + 1), dimension)));
-    }
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    for (std::string value : values_of_range(pieces[k]))
+      {
+        if (k + 1 < pieces.size() && value.find(' ') != std::string::npos)
+          throw InputError(fmt::format("{}: the unit stands once, after the last number", in_quotes(value)));
+        values.push_back(parse_quantity(k + 1 < pieces.size() ? value + unit : value, dimension));
+      }
   return values;
+}
+
+double unit_in_si(const std::string_view unit, const Dimension& dimension)
+{
+  constexpr std::pair<std::string_view, double> units_of_strain[] = {
+    {"-", 1.0},   {"mm/mm", 1.0}, {"m/m", 1.0},   {"‰", 1e-3},    {"mε", 1e-3},    {"millistrain", 1e-3},
+    {"µε", 1e-6}, {"με", 1e-6},   {"µm/m", 1e-6}, {"um/m", 1e-6}, {"10^-6", 1e-6}, {"microstrain", 1e-6}};
+  if (&dimension == &strain)
+    {
+      if (is_decimal_number(unit) && parse_number(unit) > 0.0)
+        return parse_number(unit);
+      for (const auto& [name, in_si] : units_of_strain)
+        if (unit == name)
+          return in_si;
+    }
+  return parse_quantity(fmt::format("1 {}", unit), dimension);
 }
 
 std::string format_number(const double value) { return fmt::format("{:.15g}", value); }
