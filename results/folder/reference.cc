@@ -304,7 +304,10 @@ ReferenceSource source_of(const Json& json, const std::string& label, const std:
       else if (name == "triaxial")
         source.triaxial = triaxial_of(entry, at);
       else if (const auto property = property_of(name, kinds))
-        source.values[name] = value_of(entry, *property, at);
+        {
+          if (!entry.is_null()) // not measured
+            source.values[name] = value_of(entry, *property, at);
+        }
       else
         {
           std::vector<std::string_view> known;
