@@ -9,6 +9,7 @@
 namespace feldspar
 {
 std::vector<Entry<Input>> test_list_entries();
+Entry<SpecimenParameters> sieve_curve_entry();
 Entry<Input> checkpoint_entry();
 std::vector<Entry<VariantParameters>> variant_entries();
 /// An entry of several values by its name, Section/Entry; throws InputError for one that cannot vary.

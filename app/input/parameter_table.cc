@@ -40,6 +40,7 @@ std::vector<Parameter> make_parameter_table()
                                               [part](Input& input) -> P& { return input.*part; })));
   };
   add("Specimen", &Input::specimen, specimen_entries());
+  add("Specimen", &Input::specimen, std::vector{sieve_curve_entry()});
   add("Flat joint", &Input::flat_joint, flat_joint_entries());
   add("Softening flat joint", &Input::softening_flat_joint, softening_flat_joint_entries());
   add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());

@@ -42,6 +42,8 @@ subsection Specimen
   set Height = 108 mm
   set Minimum radius = 0.3 mm      # a comment
   set Radius ratio = 2
+  set Size distribution = log-normal
+  set Sieve curve = none           # excludes the radii above
   set Porosity = 0.15
   set Density = 2.65 g/cm^3
   set Packing stress ratio = 4e-4
@@ -67,6 +69,7 @@ SUBSECTION Flat joint
   set Bond cohesion = 300 MPa
   set Bond cohesion standard deviation = 30 MPa
   set Bond friction angle = 15 deg
+  set Strength distribution = Weibull
   set Strength draw = per contact
   set Installation gap ratio = 0.05
   set Coordination number = none
@@ -329,6 +332,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.specimen.height, 0.108);
   EXPECT_DOUBLE_EQ(input.specimen.minimum_radius, 3e-4);
   EXPECT_EQ(input.specimen.radius_ratio, 2.0);
+  EXPECT_EQ(input.specimen.size_distribution, SizeDistribution::log_normal);
   EXPECT_EQ(input.specimen.porosity, 0.15);
   EXPECT_DOUBLE_EQ(input.specimen.bulk_density, 2650.0);
   EXPECT_EQ(input.specimen.packing_stress_ratio, 4e-4);
@@ -347,6 +351,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.flat_joint.bond_cohesion, 300e6);
   EXPECT_EQ(input.flat_joint.bond_cohesion_deviation, 30e6);
   EXPECT_DOUBLE_EQ(input.flat_joint.bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(input.flat_joint.strength_distribution, StrengthDistribution::weibull);
   EXPECT_EQ(input.flat_joint.strength_draw, StrengthDraw::per_contact);
   EXPECT_EQ(input.flat_joint.installation_gap_ratio, 0.05);
   EXPECT_EQ(input.flat_joint.coordination_number, std::nullopt);
@@ -497,6 +502,34 @@ TEST(Input, CoresAreRefusedWhereTheyCannotBe)
   EXPECT_EQ(refused(core + "  set Cells across = 10\n"), "");
 }
 
+TEST(Input, TakesASieveCurveForTheGrains)
+{
+  const TemporaryFolder folder;
+  const std::string curve = "  set Sieve curve = 800 um 0 %; 1.2 mm 40 %; 2 mm 100%\n";
+  const Input input = read_input(folder.write("a.prm", "subsection Specimen\n" + curve + "end\n"));
+  const SpecimenParameters& specimen = input.specimen;
+  ASSERT_EQ(specimen.sieve_curve.size(), 3u);
+  EXPECT_DOUBLE_EQ(specimen.sieve_curve[0].size, 0.8e-3);
+  EXPECT_EQ(specimen.sieve_curve[1].passing, 0.4);
+  EXPECT_EQ(specimen.largest_radius(), 1e-3);
+  EXPECT_EQ(find_parameter("Specimen/Sieve curve")->write(input), "0.8 mm 0 %; 1.2 mm 40 %; 2 mm 100 %");
+  const auto refused = [](const std::string& entries, const std::string& words) {
+    const std::string error = error_of("a.prm", "subsection Specimen\n" + entries + "end\n");
+    EXPECT_NE(error.find(words), std::string::npos) << error;
+  };
+  refused(curve + "  set Minimum radius = 1 mm\n", "leave out Minimum radius, Radius ratio and Size distribution");
+  refused("  set Sieve curve = 1 mm 0 %; 2 mm\n", "\"2 mm\" is no point of a sieve curve; write size and share");
+  refused("  set Sieve curve = 1 mm 0 %; 2 mm 60 %\n", "must begin with 0 %");
+  refused("  set Sieve curve = 1 mm 0 %; 2 mm 60 %; 1.5 mm 100 %\n", "sizes must be above 0 and increase");
+  refused("  set Sieve curve = 1 mm 0 %; 101 mm 100 %\n", "at most 100 times the smallest");
+  refused("  set Sieve curve = 8 mm 0 %; 16 mm 100 %\n  set Width = 30 mm\n", "must be at least 32 mm");
+  EXPECT_NE(
+    error_of("a.prm",
+             "subsection Flat joint\n  set Strength distribution = Weibull\n  set Bond cohesion = 10 MPa\nend\n")
+      .find("a standard deviation must be at most 3 times its mean"),
+    std::string::npos);
+}
+
 TEST(Input, GrainsComeToRestByDescentUnlessMotionIsAskedFor)
 {
   const TemporaryFolder folder;
@@ -579,6 +612,7 @@ subsection Parallel bond
   set Cohesion = 300 MPa
   set Cohesion standard deviation = 30 MPa
   set Friction angle = 15 deg
+  set Strength distribution = Weibull
   set Installation gap ratio = 0.07
   set Coordination number = none
   set Gapped fraction = 0.1
@@ -598,6 +632,7 @@ end
   EXPECT_EQ(input.parallel_bond.bond_tensile_strength_deviation, 2e6);
   EXPECT_EQ(input.parallel_bond.bond_cohesion, 300e6);
   EXPECT_EQ(input.parallel_bond.bond_cohesion_deviation, 30e6);
+  EXPECT_EQ(input.parallel_bond.strength_distribution, StrengthDistribution::weibull);
   EXPECT_DOUBLE_EQ(input.parallel_bond.bond_friction_angle, std::numbers::pi / 12.0);
   EXPECT_EQ(input.parallel_bond.installation_gap_ratio, 0.07);
   EXPECT_EQ(input.parallel_bond.coordination_number, std::nullopt);
@@ -787,6 +822,7 @@ subsection Softening flat joint
   set Bond cohesion = 300 MPa
   set Bond cohesion standard deviation = 30 MPa
   set Bond friction angle = 15 deg
+  set Strength distribution = Weibull
   set Strength draw = per contact
   set Installation gap ratio = 0.07
   set Coordination number = none
@@ -815,6 +851,7 @@ end
   EXPECT_EQ(read.bond_cohesion, 300e6);
   EXPECT_EQ(read.bond_cohesion_deviation, 30e6);
   EXPECT_DOUBLE_EQ(read.bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(read.strength_distribution, StrengthDistribution::weibull);
   EXPECT_EQ(read.strength_draw, StrengthDraw::per_contact);
   EXPECT_EQ(read.installation_gap_ratio, 0.07);
   EXPECT_EQ(read.coordination_number, std::nullopt);
