@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <numbers>
 #include <set>
 #include <system_error>
@@ -264,7 +265,50 @@ std::string write_sieve_curve(const std::vector<SievePoint>& curve)
   return text.empty() ? std::string(none) : text;
 }
 
+/// BOUNDARY = GROUP, GROUP; BOUNDARY = GROUP
+std::map<std::string, std::vector<std::string>> read_mesh_names(const std::string_view text)
+{
+  std::map<std::string, std::vector<std::string>> names;
+  if (text == none)
+    return names;
+  static const std::vector<std::string_view> known{"left", "right", "bottom", "top", "axis", "side"};
+  for (const std::string_view piece : split_at(";", text))
+    {
+      const std::size_t equals = std::min(piece.find('='), piece.size());
+      const std::string_view name = trim(piece.substr(0, equals));
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError(
+          fmt::format("{} is no boundary of a sample; write {} = NAME", in_quotes(name), fmt::join(known, ", ")));
+      const auto groups = split_at_commas(piece.substr(std::min(equals + 1, piece.size())));
+      if (std::find(groups.begin(), groups.end(), "") != groups.end())
+        throw InputError(fmt::format("{} lacks the name of a group of the mesh; write {} = NAME", name, name));
+      if (!names.emplace(name, std::vector<std::string>(groups.begin(), groups.end())).second)
+        throw InputError(fmt::format("{} is given twice; separate several groups by commas", name));
+    }
+  return names;
+}
+
+std::string write_mesh_names(const std::map<std::string, std::vector<std::string>>& names)
+{
+  std::string text;
+  for (const auto& [name, groups] : names)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", name, fmt::join(groups, ", "));
+  return text.empty() ? std::string(none) : text;
+}
 } // namespace
+
+Entry<SampleParameters> mesh_names_entry()
+{
+  using P = SampleParameters;
+  return {"Mesh names",
+          Entry<P>::Text{"", "none, or BOUNDARY = GROUP, several separated by semicolons",
+                         [](P& sample, const std::string_view text) { sample.mesh_names = read_mesh_names(text); },
+                         [](const P& sample) { return write_mesh_names(sample.mesh_names); }},
+          "physical groups of the mesh file that are the boundaries of the sample, where they have other names there: "
+          "`left = west; bottom = base_1, base_2`; a group without a name has its number",
+          {},
+          id_of_member(&P::mesh_names)};
+}
 
 std::vector<Entry<Input>> test_list_entries()
 {

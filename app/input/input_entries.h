@@ -18,6 +18,7 @@ Entry<Input> seeds_entry();
 std::vector<Entry<ContactParameters>> contact_entries();
 Entry<ContactParameters> contact_path_entry();
 std::vector<Entry<StrainPathParameters>> strain_path_entries();
+Entry<SampleParameters> mesh_names_entry();
 std::vector<Entry<CalibrationParameters>> calibration_list_entries();
 std::vector<Entry<ReportLabels>> label_entries();
 std::vector<Entry<Input>> report_entries();

@@ -61,6 +61,7 @@ std::vector<Parameter> make_parameter_table()
   add("Representative volume", &Input::equilibrium, equilibrium_entries());
   add("Representative volume", &Input::boundary, boundary_entries());
   add("Sample", &Input::sample, sample_entries());
+  add("Sample", &Input::sample, std::vector{mesh_names_entry()});
   add("Continuum", &Input::continuum, continuum_entries());
   add("Calibration", &Input::calibration, calibration_list_entries());
   add("Calibration", &Input::calibration, calibration_entries());

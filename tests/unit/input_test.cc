@@ -22,6 +22,7 @@
 #include <array>
 #include <clocale>
 #include <cstdlib>
+#include <map>
 #include <numbers>
 #include <random>
 #include <string>
@@ -174,6 +175,7 @@ subsection Sample
   set Material = Mohr-Coulomb
   set Mesh file = sample.msh
   set Mesh unit = mm
+  set Mesh names = top = roof; bottom = base 1, base 2
   set Width = 40 mm
   set Height = 80 mm
   set Geometry = cylinder
@@ -436,6 +438,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.sample.material, "Mohr-Coulomb");
   EXPECT_EQ(input.sample.mesh_file, (folder.path() / "sample.msh").string());
   EXPECT_EQ(input.sample.mesh_unit, MeshUnit::millimetre);
+  EXPECT_EQ(input.sample.mesh_names,
+            (std::map<std::string, std::vector<std::string>>{{"bottom", {"base 1", "base 2"}}, {"top", {"roof"}}}));
   EXPECT_DOUBLE_EQ(input.sample.width, 0.040);
   EXPECT_DOUBLE_EQ(input.sample.height, 0.080);
   EXPECT_EQ(input.sample.elements_across, 3u);
