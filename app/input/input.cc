@@ -233,9 +233,36 @@ void check_specimen(const Input& input, const GivenEntries& values)
     throw values.error("Specimen", "Height", demand);
 }
 
+/// Says how much of a joint map lies out of the specimen.
+void remark_on_map(Input& input)
+{
+  const Vector<2> size(input.specimen.width, input.specimen.height);
+  std::size_t n_outside = 0;
+  std::size_t n_cut = 0;
+  for (const Shape& trace : input.flaws.placed_traces())
+    {
+      const auto& flaw = std::get<ClosedFlaw>(trace);
+      const auto parts = parts_inside(flaw, size);
+      n_outside += parts.empty();
+      n_cut += !parts.empty() && (parts.size() > 1 || parts.front().points != flaw.points);
+    }
+  if (input.specimen.specimen_file.empty() && n_outside + n_cut > 0)
+    input.flaws.left_out +=
+      fmt::format("{}Flaws/Traces file: of {} traces {} lie outside of the specimen, {} are cut at its sides",
+                  input.flaws.left_out.empty() ? "" : "; ", input.flaws.traces.size(), n_outside, n_cut);
+}
+
 /// Checks the flaws. The size of a specimen out of a file is not known yet; putting the flaws in checks them again.
 void check_flaws(const Input& input, const GivenEntries& values)
 {
+  for (const char* const entry : {"Traces origin", "Traces angle", "Traces scale", "Smooth layers"})
+    if (input.flaws.traces.empty() && values.has("Flaws", entry))
+      throw values.error("Flaws", entry, "is of a joint map; give Traces file too");
+  for (const auto& [layer, sides] : input.flaws.map.smooth_layers)
+    if (std::none_of(input.flaws.traces.begin(), input.flaws.traces.end(),
+                     [&](const Shape& trace) { return std::get<ClosedFlaw>(trace).map_layer == layer; }))
+      throw values.error("Flaws", "Smooth layers",
+                         fmt::format("no trace of the map is on a layer {}", in_quotes(layer)));
   if (!input.specimen.specimen_file.empty())
     return;
   const auto check = [&](const std::vector<Shape>& shapes, const char* entry) {
@@ -249,7 +276,7 @@ void check_flaws(const Input& input, const GivenEntries& values)
     throw values.error("Variants", "Values", what); // of Flaws/Shapes
   };
   check(input.flaws.shapes, "Shapes");
-  check(input.flaws.traces, "Traces file");
+  check(input.flaws.placed_traces(), "Traces file");
 }
 
 /// The entries of grains, joints and contacts that are given though the specimen file has them already.
@@ -350,6 +377,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
       check_clumps(variant.input, values);
       check_mineral_grains(variant.input, values);
     }
+  remark_on_map(input);
   return input;
 }
 } // namespace feldspar

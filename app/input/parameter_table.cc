@@ -49,6 +49,10 @@ std::vector<Parameter> make_parameter_table()
   add("Mineral grains", &Input::mineral_grains, mineral_grain_entries());
   add("Clumps", &Input::clumps, clump_entries());
   add_own("Flaws", flaw_entries());
+  for (const Entry<MapParameters>& one : map_entries())
+    add_own("Flaws", {within<Input>(
+                       one, [](const Input& input) -> const MapParameters& { return input.flaws.map; },
+                       [](Input& input) -> MapParameters& { return input.flaws.map; })});
   add("Dynamics", &Input::dynamics, dynamics_entries());
   add_own("Tests", test_list_entries());
   add("Tests", &Input::tests, test_entries());

@@ -98,6 +98,10 @@ end
 subsection Flaws
   set Shapes = hole centre 20, 50 mm radius 5 mm | joint set angle 30 deg spacing 10 mm
   set Traces file = traces.csv
+  set Traces origin = 1, 2 mm
+  set Traces angle = 10 deg
+  set Traces scale = 0.5
+  set Smooth layers = none
 end
 subsection Dynamics
   set Damping = 0
@@ -385,6 +389,9 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.flaws.traces_file, (folder.path() / "traces.csv").string());
   ASSERT_EQ(input.flaws.traces.size(), 1u);
   EXPECT_EQ(std::get<ClosedFlaw>(input.flaws.traces[0]).points[1], Vector<2>(0.03, 0.04));
+  EXPECT_EQ(input.flaws.map.origin, Vector<2>(0.001, 0.002));
+  EXPECT_DOUBLE_EQ(input.flaws.map.angle, std::numbers::pi / 18.0);
+  EXPECT_EQ(input.flaws.map.scale, 0.5);
 
   EXPECT_EQ(input.tests.of<BendingParameters>().strain_rate, 0.2);
   EXPECT_EQ(input.tests.of<BendingParameters>().sampling_strain, 4e-6);
@@ -1412,6 +1419,48 @@ TEST(Input, ClumpsAreTestedByWhatSaysThatItTakesThem)
           EXPECT_NE(std::string(error.what()).find("takes no clumps; take it out"), std::string::npos) << error.what();
         }
   EXPECT_EQ(n_taken, 3u);
+}
+
+TEST(Input, PlacesAJointMapAndReadsItsLayers)
+{
+  const TemporaryFolder folder;
+  folder.write("map.csv",
+               "layer,from_x_m,from_y_m,to_x_m,to_y_m\nBedding,12,8,13,8\nfaults,12,8,12,9\nfaults,100,100,101,101\n");
+  const std::string map =
+    "  set Traces file = map.csv\n  set Traces origin = 11000, 8000 mm\n  set Traces angle = 90 deg\n"
+    "  set Traces scale = 0.01\n";
+  const auto read = [&](const std::string& entries) {
+    return read_input(folder.write("a.prm", "subsection Flaws\n" + entries + "end\n"));
+  };
+  const auto input = read(map + "  set Smooth layers = bedding: smooth friction 0.4 | Faults: smooth cohesion 1 MPa\n");
+  const auto shapes = input.flaws.all();
+  ASSERT_EQ(shapes.size(), 3u);
+  // One metre to the right of the origin, turned upwards, a hundredth as long.
+  const auto& bedding = std::get<ClosedFlaw>(shapes[0]);
+  EXPECT_LT((bedding.points[0] - Vector<2>(0.0, 0.01)).norm(), 1e-15);
+  EXPECT_LT((bedding.points[1] - Vector<2>(0.0, 0.02)).norm(), 1e-15);
+  EXPECT_EQ(bedding.smooth->friction, 0.4);
+  EXPECT_EQ(std::get<ClosedFlaw>(shapes[1]).smooth->cohesion, 1e6);
+  EXPECT_NE(input.flaws.left_out.find("of 3 traces"), std::string::npos) << input.flaws.left_out;
+
+  const auto refused = [&](const std::string& entries, const std::string& words) {
+    try
+      {
+        read(entries);
+        ADD_FAILURE() << words;
+      }
+    catch (const InputError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      }
+  };
+  refused(map + "  set Smooth layers = veins: smooth\n", "no trace of the map is on a layer \"veins\"");
+  refused(map + "  set Smooth layers = bedding: friction 0.4\n", "friction is of smooth sides; say smooth before it");
+  refused(map + "  set Smooth layers = bedding smooth\n", "is no layer with smooth sides; write LAYER: smooth");
+  refused("  set Traces scale = 2\n", "is of a joint map; give Traces file too");
+  refused("  set Traces file = map.csv\n", "no trace of the map lies in the specimen");
+  folder.write("map.csv", "colour,from_x_m,from_y_m,to_x_m,to_y_m\nred,0,0,1,1\n");
+  refused("  set Traces file = map.csv\n", "map.csv:1: \"colour\" is no column of a joint map");
 }
 
 TEST(Input, ATraceFileThatIsWrongIsNamedWithItsLine)
