@@ -63,6 +63,7 @@ public:
     add_packings(*app.get_subcommand("specimen"));
     add_report();
     add_parameters();
+    add_new();
     add_texts();
   }
 
@@ -155,6 +156,17 @@ private:
     command.add_option("--threads", n_threads, "how many to use (default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1u, 4096u).description("")); // its range would stand beside the N
+  }
+
+  void add_new()
+  {
+    CLI::App& command = *app.add_subcommand("new", "write a commented input to begin with, and a reference to fill in");
+    command.add_option("NAME", fresh.name, fmt::format("{}", fmt::join(names_of_templates(), ", ")))
+      ->required()
+      ->check(CLI::IsMember(names_of_templates()).description(""));
+    command.add_option("--output", fresh.output, "folder of both files (default: the current one)")->type_name("DIR");
+    command.callback([this] { chosen = [this] { return run_new(fresh); }; });
+    add_examples(command, "feldspar new rock\n  feldspar new sample --output granite");
   }
 
   void add_report()
@@ -308,6 +320,7 @@ private:
   CommonOptions common;
   ReportOptions report;
   ParametersOptions parameters;
+  NewOptions fresh;
   std::string helped; ///< the command that help is asked for
   std::optional<unsigned int> n_threads;
   std::function<int()> chosen;

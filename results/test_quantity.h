@@ -23,7 +23,7 @@ struct Figure
 
 struct TestResults;
 
-/// The curve of a test up to its peak (results/evaluation/rising_branch.h).
+/// The curve of a test up to its peak, or of a test without one up to its first crack (results/evaluation/rising_branch.h).
 class RisingBranch;
 
 /// Unit and decimals of a number on pages.
@@ -99,6 +99,11 @@ struct PlausibleBound
 constexpr PlausibleBound at_most(const double value) { return {BoundSide::at_most, value}; }
 constexpr PlausibleBound at_least(const double value) { return {BoundSide::at_least, value}; }
 
+/// Marks a quantity that a test without a peak gives too, from its curve before the first crack.
+struct NeedsNoPeak
+{
+};
+
 /// Picture of a quantity in studies, by the part of its name in files; empty: none is drawn.
 struct InStudies
 {
@@ -133,6 +138,7 @@ struct TestQuantity
   InStudies studies = {};
   std::optional<PlausibleBound> bound = {};
   NanMeans nan = {};
+  bool needs_no_peak = false;
 
   /// The member of a figure; null of other numbers.
   constexpr Figure TestResults::*figure() const
@@ -150,6 +156,7 @@ struct TestQuantity
   constexpr void set(const InStudies& value) { studies = value; }
   constexpr void set(const PlausibleBound& value) { bound = value; }
   constexpr void set(const NanMeans& value) { nan = value; }
+  constexpr void set(const NeedsNoPeak&) { needs_no_peak = true; }
 };
 
 /// Tests, or fits to them, that give a property of the rock.

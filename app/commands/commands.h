@@ -94,6 +94,17 @@ struct ParametersOptions
   bool markdown = false;
 };
 
+struct NewOptions
+{
+  std::string name; ///< of the template
+  std::optional<std::filesystem::path> output;
+};
+
+/// `feldspar new NAME`: writes NAME.prm and NAME-reference.json, which did not exist. Throws InputError.
+int run_new(const NewOptions& options);
+
+std::vector<std::string> names_of_templates();
+
 int run_parameters(const ParametersOptions& options);
 
 /// Prints docs/results.md: the quantities of tests, the properties that a reference may give and the columns of curves,

@@ -230,6 +230,13 @@ Shape read_slot(const Quantities& given)
 constexpr std::array<std::string_view, 7> words_of_smooth_sides{
   "normal-stiffness", "shear-stiffness", "friction", "dilation", "tensile-strength", "cohesion", "friction-angle"};
 
+std::vector<std::string_view> and_smooth(std::vector<std::string_view> words)
+{
+  words.push_back("smooth");
+  words.insert(words.end(), words_of_smooth_sides.begin(), words_of_smooth_sides.end());
+  return words;
+}
+
 /// Smooth sides of a flaw; none if its joints keep their law.
 std::optional<SmoothSides> read_smooth_sides(const Quantities& given)
 {
@@ -252,6 +259,30 @@ std::optional<SmoothSides> read_smooth_sides(const Quantities& given)
   return sides;
 }
 
+/// LAYER: smooth ... | LAYER: smooth ...
+std::map<std::string, SmoothSides> read_layers(std::string_view text)
+{
+  std::map<std::string, SmoothSides> layers;
+  for (;;)
+    {
+      const std::size_t bar = text.find('|');
+      const std::string_view piece = trim(text.substr(0, bar));
+      const std::size_t colon = std::min(piece.find(':'), piece.size());
+      const std::string layer = in_small_letters(trim(piece.substr(0, colon)));
+      const auto words = words_of(piece.substr(std::min(colon + 1, piece.size())));
+      const auto sides = layer.empty() ? std::nullopt : read_smooth_sides(Quantities(words, 0, and_smooth({})));
+      if (!sides)
+        throw InputError(
+          fmt::format("{} is no layer with smooth sides; write LAYER: smooth, e.g. bedding: smooth friction 0.4",
+                      in_quotes(piece)));
+      if (!layers.emplace(layer, *sides).second)
+        throw InputError(fmt::format("{} is given twice", layer));
+      if (bar == std::string_view::npos)
+        return layers;
+      text.remove_prefix(bar + 1);
+    }
+}
+
 Shape read_closed_flaw(const Quantities& given)
 {
   if (given.is_given_by({"from", "to"}, {"centre", "length", "angle", "points"}) ||
@@ -267,13 +298,17 @@ Shape read_closed_flaw(const Quantities& given)
     "Y1, X2, Y2 mm\"");
 }
 
-Shape read_disc_flaw(const Quantities& given)
+/// Normal of a plane by its dip and dip direction: that of the steepest way down, from the first axis towards the second.
+Vector<3> read_normal(const Quantities& given)
 {
-  // The dip direction is that of the steepest way down, from the first axis towards the second.
   const double dip = given.angle_or_zero("dip");
   const double direction = given.angle_or_zero("dip-direction");
-  return DiscFlaw{given.point<3>("centre"), given.positive_length("radius"),
-                  Vector<3>(std::sin(dip) * std::cos(direction), std::sin(dip) * std::sin(direction), std::cos(dip)),
+  return {std::sin(dip) * std::cos(direction), std::sin(dip) * std::sin(direction), std::cos(dip)};
+}
+
+Shape read_disc_flaw(const Quantities& given)
+{
+  return DiscFlaw{given.point<3>("centre"), given.positive_length("radius"), read_normal(given),
                   read_smooth_sides(given)};
 }
 
@@ -293,6 +328,20 @@ Shape read_joint_set(const Quantities& given)
   return set;
 }
 
+Shape read_disc_set(const Quantities& given)
+{
+  constexpr std::uint64_t most_discs = 20000;
+  const double concentration = given.number("fisher", {'(', 0.0, 1e6, ']'});
+  const std::uint64_t n = given.count("number");
+  if (n < 1 || n > most_discs)
+    throw InputError(fmt::format("number: must be from 1 to {}", most_discs));
+  DiscSet set{read_normal(given), concentration, given.positive_length("radius"), n};
+  if (given.has("seed"))
+    set.seed = given.count("seed");
+  set.smooth = read_smooth_sides(given);
+  return set;
+}
+
 /// Form of a shape: its name, the words of its quantities, and its reader.
 struct Form
 {
@@ -300,13 +349,6 @@ struct Form
   std::vector<std::string_view> words;
   Shape (*read)(const Quantities&);
 };
-
-std::vector<std::string_view> and_smooth(std::vector<std::string_view> words)
-{
-  words.push_back("smooth");
-  words.insert(words.end(), words_of_smooth_sides.begin(), words_of_smooth_sides.end());
-  return words;
-}
 
 const std::vector<Form>& forms()
 {
@@ -316,7 +358,8 @@ const std::vector<Form>& forms()
     {Slot::name, {"from", "to", "centre", "length", "angle", "width"}, read_slot},
     {ClosedFlaw::name, and_smooth({"from", "to", "centre", "length", "angle", "points"}), read_closed_flaw},
     {DiscFlaw::name, and_smooth({"centre", "radius", "dip", "dip-direction"}), read_disc_flaw},
-    {JointSet::name, and_smooth({"angle", "spacing", "persistence", "trace-length", "seed"}), read_joint_set}};
+    {JointSet::name, and_smooth({"angle", "spacing", "persistence", "trace-length", "seed"}), read_joint_set},
+    {DiscSet::name, and_smooth({"dip", "dip-direction", "fisher", "radius", "number", "seed"}), read_disc_set}};
   return all;
 }
 
@@ -385,7 +428,9 @@ std::vector<Entry<Input>> flaw_entries()
      "`closed flaw centre 25, 50 mm length 12 mm angle 45 deg` (or `from`, `to`, or `points`), `joint set angle "
      "30 deg spacing 10 mm persistence 0.7 trace-length 8 mm seed 1`; in three dimensions these run through the "
      "depth, and there are `sphere centre 25, 25, 50 mm radius 5 mm` and `disc flaw centre 25, 25, 50 mm radius "
-     "6 mm dip 45 deg dip-direction 0 deg`; a closed flaw, joint set or disc flaw may end with `smooth`: its joints "
+     "6 mm dip 45 deg dip-direction 0 deg`, and `disc set dip 60 deg dip-direction 30 deg fisher 20 radius 4 mm number 30 "
+     "seed 1`, discs with random centres and Fisher's distribution of normals; a closed flaw, disc flaw or set may end with "
+     "`smooth`: its joints "
      "then have its plane, as section Smooth joint says, or as its own words do, e.g. `smooth friction 0.6 dilation 5 "
      "deg normal-stiffness 50 GPa/mm shear-stiffness 20 GPa/mm cohesion 1 MPa tensile-strength 0.5 MPa friction-angle "
      "31 deg`, and are bonded where it has a cohesion or tensile strength; angles are from the first axis towards that of the tests",
@@ -402,8 +447,45 @@ std::vector<Entry<Input>> flaw_entries()
                         [](const Input& input) {
                           return input.flaws.traces_file.empty() ? std::string(none) : input.flaws.traces_file;
                         }},
-     "closed flaws of a joint map: a CSV with the columns from_x_m,from_y_m,to_x_m,to_y_m, or a DXF whose lines and "
-     "polylines are the traces, in the unit of its header (y along the axis of the tests)",
+     "closed flaws of a joint map: a CSV with the columns from_x_m,from_y_m,to_x_m,to_y_m (and layer), or a DXF whose lines "
+     "and polylines are the traces, in the unit of its header (y along the axis of the tests). Parts outside of the "
+     "specimen are left out",
      of_body}};
+}
+
+std::vector<Entry<MapParameters>> map_entries()
+{
+  using P = MapParameters;
+  const EntryFlags of_rock{.varies = true, .of_specimen = true};
+  return {
+    {"Traces origin",
+     Entry<P>::Text{"mm", "X, Y mm",
+                    [](P& map, const std::string_view text) {
+                      const auto values = parse_quantities(text, length);
+                      if (values.size() != 2)
+                        throw InputError("must be two lengths, e.g. 120, 80 mm");
+                      map.origin = {values[0], values[1]};
+                    },
+                    [](const P& map) {
+                      return fmt::format("{}, {} mm", format_number(1e3 * map.origin[0]),
+                                         format_number(1e3 * map.origin[1]));
+                    }},
+     "point of the joint map, in its lengths, that lies at the lower left corner of the specimen", of_rock},
+    entry::quantity("Traces angle", &P::angle, Measure::angle, "deg", {'[', -360.0, 360.0, ']'},
+                    "by which the joint map is turned about this point, from the first axis towards that of the tests",
+                    of_rock),
+    entry::number("Traces scale", &P::scale, ranges::above_zero,
+                  "length in the specimen over that in the joint map: 0.01 of a map of 5 m in a model of 50 mm",
+                  of_rock),
+    {"Smooth layers",
+     Entry<P>::Text{"", "none, or LAYER: smooth ..., separated by upright bars",
+                    [](P& map, const std::string_view text) {
+                      map.smooth_layers = text == none ? std::map<std::string, SmoothSides>() : read_layers(text);
+                      map.text = text == none ? "" : joined(words_of(text), 0, words_of(text).size());
+                    },
+                    [](const P& map) { return map.text.empty() ? std::string(none) : map.text; }},
+     "layers of the joint map whose traces are smooth joints, with the words of a closed flaw: `bedding: smooth friction "
+     "0.4 | faults: smooth friction 0.3 cohesion 1 MPa`; the traces of other layers are unbonded joints",
+     of_rock}};
 }
 } // namespace feldspar

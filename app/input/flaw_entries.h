@@ -12,6 +12,9 @@ namespace feldspar
 /// The entries of section Flaws.
 std::vector<Entry<Input>> flaw_entries();
 
+/// The entries of the same section on the place and the layers of a joint map.
+std::vector<Entry<MapParameters>> map_entries();
+
 /// Shapes between upright bars. Throws InputError, which names the shape and its word.
 std::vector<Shape> parse_shapes(std::string_view text);
 } // namespace feldspar

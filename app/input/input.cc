@@ -8,6 +8,7 @@
 #include "base/table/quantity.h"
 #include "dem/flaws/apply.h"
 #include "dem/flaws/smooth_planes.h"
+#include "dem/genesis/grain_sizes.h"
 #include "dem/lab/surroundings.h"
 #include "laboratory/loading_stages.h"
 
@@ -56,13 +57,19 @@ void settle_installation(Input& input, const GivenEntries& values)
   });
 }
 
-void check_fractions(const Input& input, const GivenEntries& values)
+void check_bonds(const Input& input, const GivenEntries& values)
 {
   for_each_joint_section(input, [&](const std::string_view law, const auto& joint) {
     if (joint.gapped_fraction + joint.slit_fraction > 1.0)
       throw values.error(section_of(law), "Slit fraction",
                          fmt::format("must be at most 1 together with Gapped fraction = {}",
                                      values.value(section_of(law), "Gapped fraction")));
+    constexpr double largest_variation = 3.0; // a modulus of 0.4: half of the bonds have a tenth of the mean or less
+    if (joint.strength_distribution == StrengthDistribution::weibull &&
+        (joint.bond_tensile_strength_deviation > largest_variation * joint.bond_tensile_strength ||
+         joint.bond_cohesion_deviation > largest_variation * joint.bond_cohesion))
+      throw values.error(section_of(law), "Strength distribution",
+                         fmt::format("a standard deviation must be at most {:g} times its mean", largest_variation));
   });
 }
 
@@ -219,7 +226,7 @@ void check_specimen(const Input& input, const GivenEntries& values)
   if (const double n_grains = expected_grains(specimen); n_grains > most_grains)
     throw values.error("Specimen", "Minimum radius",
                        fmt::format("gives some {:.0e} grains; more than {:.0e} are not packed", n_grains, most_grains));
-  const double least = 4.0 * specimen.minimum_radius * specimen.radius_ratio;
+  const double least = 4.0 * specimen.largest_radius();
   const std::string demand =
     fmt::format("must be at least {}, or there is no room for two grains of the largest radius",
                 format_quantity(least, "mm", length));
@@ -229,9 +236,36 @@ void check_specimen(const Input& input, const GivenEntries& values)
     throw values.error("Specimen", "Height", demand);
 }
 
+/// Says how much of a joint map lies out of the specimen.
+void remark_on_map(Input& input)
+{
+  const Vector<2> size(input.specimen.width, input.specimen.height);
+  std::size_t n_outside = 0;
+  std::size_t n_cut = 0;
+  for (const Shape& trace : input.flaws.placed_traces())
+    {
+      const auto& flaw = std::get<ClosedFlaw>(trace);
+      const auto parts = parts_inside(flaw, size);
+      n_outside += parts.empty();
+      n_cut += !parts.empty() && (parts.size() > 1 || parts.front().points != flaw.points);
+    }
+  if (input.specimen.specimen_file.empty() && n_outside + n_cut > 0)
+    input.flaws.left_out +=
+      fmt::format("{}Flaws/Traces file: of {} traces {} lie outside of the specimen, {} are cut at its sides",
+                  input.flaws.left_out.empty() ? "" : "; ", input.flaws.traces.size(), n_outside, n_cut);
+}
+
 /// Checks the flaws. The size of a specimen out of a file is not known yet; putting the flaws in checks them again.
 void check_flaws(const Input& input, const GivenEntries& values)
 {
+  for (const char* const entry : {"Traces origin", "Traces angle", "Traces scale", "Smooth layers"})
+    if (input.flaws.traces.empty() && values.has("Flaws", entry))
+      throw values.error("Flaws", entry, "is of a joint map; give Traces file too");
+  for (const auto& [layer, sides] : input.flaws.map.smooth_layers)
+    if (std::none_of(input.flaws.traces.begin(), input.flaws.traces.end(),
+                     [&](const Shape& trace) { return std::get<ClosedFlaw>(trace).map_layer == layer; }))
+      throw values.error("Flaws", "Smooth layers",
+                         fmt::format("no trace of the map is on a layer {}", in_quotes(layer)));
   if (!input.specimen.specimen_file.empty())
     return;
   const auto check = [&](const std::vector<Shape>& shapes, const char* entry) {
@@ -245,7 +279,7 @@ void check_flaws(const Input& input, const GivenEntries& values)
     throw values.error("Variants", "Values", what); // of Flaws/Shapes
   };
   check(input.flaws.shapes, "Shapes");
-  check(input.flaws.traces, "Traces file");
+  check(input.flaws.placed_traces(), "Traces file");
 }
 
 /// The entries of grains, joints and contacts that are given though the specimen file has them already.
@@ -299,18 +333,11 @@ void check_strain_path(const Input& input, const GivenEntries& values)
 
 double expected_grains(const SpecimenParameters& specimen)
 {
-  // The means of r² and r³ of radii spread uniformly from r to ρ r are r²(1+ρ+ρ²)/3 and r³(1+ρ)(1+ρ²)/4.
-  const double r = specimen.minimum_radius;
-  const double ratio = specimen.radius_ratio;
-  const double cylinder_over_box = specimen.shape_when_packed() == BodyShape::cylinder ? 0.25 * std::numbers::pi : 1.0;
+  const double area = (1.0 - specimen.porosity) * specimen.width * specimen.height;
   if (specimen.dimension == 2)
-    {
-      const double of_grain = std::numbers::pi * r * r * (1.0 + ratio + ratio * ratio) / 3.0;
-      return (1.0 - specimen.porosity) * specimen.width * specimen.height / of_grain;
-    }
-  const double of_grain = 4.0 / 3.0 * std::numbers::pi * r * r * r * (1.0 + ratio) * (1.0 + ratio * ratio) / 4.0;
-  const double of_body = cylinder_over_box * specimen.width * specimen.width * specimen.height;
-  return (1.0 - specimen.porosity) * of_body / of_grain;
+    return expected_number(specimen, area);
+  const double cylinder_over_box = specimen.shape_when_packed() == BodyShape::cylinder ? 0.25 * std::numbers::pi : 1.0;
+  return expected_number(specimen, cylinder_over_box * area * specimen.width);
 }
 
 std::filesystem::path Input::file_named(const std::string_view name) const
@@ -347,7 +374,7 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
   check_joint_law(input, values);
   for (const Variant& variant : variants(input))
     {
-      check_fractions(variant.input, values);
+      check_bonds(variant.input, values);
       check_demands(variant.input, values);
       check_specimen(variant.input, values);
       check_strain_path(variant.input, values);
@@ -356,6 +383,7 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
       check_clumps(variant.input, values);
       check_mineral_grains(variant.input, values);
     }
+  remark_on_map(input);
   return input;
 }
 } // namespace feldspar

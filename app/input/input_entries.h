@@ -9,6 +9,7 @@
 namespace feldspar
 {
 std::vector<Entry<Input>> test_list_entries();
+Entry<SpecimenParameters> sieve_curve_entry();
 Entry<Input> checkpoint_entry();
 std::vector<Entry<VariantParameters>> variant_entries();
 /// An entry of several values by its name, Section/Entry; throws InputError for one that cannot vary.
@@ -17,6 +18,7 @@ Entry<Input> seeds_entry();
 std::vector<Entry<ContactParameters>> contact_entries();
 Entry<ContactParameters> contact_path_entry();
 std::vector<Entry<StrainPathParameters>> strain_path_entries();
+Entry<SampleParameters> mesh_names_entry();
 std::vector<Entry<CalibrationParameters>> calibration_list_entries();
 std::vector<Entry<ReportLabels>> label_entries();
 std::vector<Entry<Input>> report_entries();

@@ -40,6 +40,7 @@ std::vector<Parameter> make_parameter_table()
                                               [part](Input& input) -> P& { return input.*part; })));
   };
   add("Specimen", &Input::specimen, specimen_entries());
+  add("Specimen", &Input::specimen, std::vector{sieve_curve_entry()});
   add("Flat joint", &Input::flat_joint, flat_joint_entries());
   add("Softening flat joint", &Input::softening_flat_joint, softening_flat_joint_entries());
   add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
@@ -48,6 +49,10 @@ std::vector<Parameter> make_parameter_table()
   add("Mineral grains", &Input::mineral_grains, mineral_grain_entries());
   add("Clumps", &Input::clumps, clump_entries());
   add_own("Flaws", flaw_entries());
+  for (const Entry<MapParameters>& one : map_entries())
+    add_own("Flaws", {within<Input>(
+                       one, [](const Input& input) -> const MapParameters& { return input.flaws.map; },
+                       [](Input& input) -> MapParameters& { return input.flaws.map; })});
   add("Dynamics", &Input::dynamics, dynamics_entries());
   add_own("Tests", test_list_entries());
   add("Tests", &Input::tests, test_entries());
@@ -60,6 +65,7 @@ std::vector<Parameter> make_parameter_table()
   add("Representative volume", &Input::equilibrium, equilibrium_entries());
   add("Representative volume", &Input::boundary, boundary_entries());
   add("Sample", &Input::sample, sample_entries());
+  add("Sample", &Input::sample, std::vector{mesh_names_entry()});
   add("Continuum", &Input::continuum, continuum_entries());
   add("Calibration", &Input::calibration, calibration_list_entries());
   add("Calibration", &Input::calibration, calibration_entries());

@@ -67,6 +67,8 @@ void check_sample(const Input& input)
     throw InputError("Continuum/Dilation angle: must be at most Continuum/Friction angle");
   if (!has_grains && geometry != SampleGeometry::plane && input.continuum.poissons_ratio >= 0.5)
     throw InputError("Continuum/Poisson ratio: must be below 0.5 in space");
+  if (!input.sample.mesh_names.empty() && input.sample.mesh_file.empty())
+    throw InputError("Sample/Mesh names: are of the groups of a mesh file; give Mesh file too");
   if (input.sample.reduced_quadrature && input.sample.order != 2)
     throw InputError("Sample/Quadrature = reduced: needs Order = 2; elements of order 1 would deform without strain");
   // Before the mesh is made, which would take all memory.

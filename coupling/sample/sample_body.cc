@@ -83,10 +83,19 @@ void check_size(const fem::SampleMesh<dim>& mesh, const SampleParameters& sample
 template <int dim>
 fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
 {
-  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(ranks::communicator(), sample.mesh_file, 0, metres(sample.mesh_unit));
+  fem::SampleMesh<dim> mesh =
+    fem::read_gmsh<dim>(ranks::communicator(), sample.mesh_file, 0, metres(sample.mesh_unit), sample.mesh_names);
   check_size(mesh, sample);
   for (const std::string& boundary : boundaries_of(sample.geometry))
-    mesh.boundary(boundary);
+    try
+      {
+        mesh.boundary(boundary);
+      }
+    catch (const fem::MeshError& error)
+      {
+        throw fem::MeshError(fmt::format("{}; set {} = {} = NAME", error.what(),
+                                         entry_in_words(parameter_id<&SampleParameters::mesh_names>()), boundary));
+      }
   if (sample.geometry == SampleGeometry::axisymmetric)
     {
       const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);

@@ -39,8 +39,8 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
       "of Gmsh (format 2 or 4, text or binary), instead of Width, Height and both Elements: "
       "quadrilaterals with the lines of the physical groups left, right, bottom and top, in r-z "
       "axis, side, bottom and top with the axis at x = 0, or hexahedra about x = y = 0 along z "
-      "with the surfaces side, bottom and top; the last coordinate counts upwards, and each name must be that of "
-      "the place where its lines or surfaces lie",
+      "with the surfaces side, bottom and top, or other names by Mesh names; the last coordinate counts upwards, and each "
+      "name must be that of the place where its lines or surfaces lie",
       {.basic = true}),
     entry::choice("Mesh unit", &P::mesh_unit,
                   {{"none", MeshUnit::not_said},

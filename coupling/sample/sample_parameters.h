@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace feldspar
 {
@@ -43,6 +45,8 @@ struct SampleParameters
   SampleGeometry geometry = SampleGeometry::plane;
   std::string material = "grains"; ///< an RVE at each point; else the name of a continuum (continua/continua.h)
   std::string mesh_file;           ///< of Gmsh; empty: a rectangle or a cylinder
+  /// Boundaries, and the groups of the mesh file that each consists of; others have their names in the file.
+  std::map<std::string, std::vector<std::string>> mesh_names;
   MeshUnit mesh_unit = MeshUnit::not_said;
   double width = 0.050;             ///< of the rectangle, diameter of the cylinder [m]
   double height = 0.100;            ///< along the axis of the test [m]

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace feldspar
@@ -135,6 +136,12 @@ template <int dim>
 Effect<dim> effect_of(const JointSet&)
 {
   return {}; // its flaws are closed flaws
+}
+
+template <int dim>
+Effect<dim> effect_of(const DiscSet&)
+{
+  return {}; // its flaws are disc flaws
 }
 
 /// The joints that a shape meets; of a periodic body also where they lie from their second grain.
@@ -279,7 +286,8 @@ void make_smooth(Specimen<dim>& specimen, const Shape& shape, const Effect<dim>&
         places.push_back({j, effect.normal(one, two), joints.face_area(j)});
         sum += places.back().area;
       }
-  if (!specimen.is_round()) // of a cylinder the faces keep their own areas
+  // Faces keep their own areas in a cylinder, and where a disc reaches out of the body.
+  if (!specimen.is_round() && objection<dim>(shape, specimen.size).empty())
     for (auto& place : places)
       place.area *= area_of(shape, specimen) / sum;
   flaw.n_joints = places.size();
@@ -308,6 +316,24 @@ void put_in(Specimen<dim>& specimen, const Shape& shape, const SmoothJointParame
   specimen.flaws.push_back(std::move(flaw));
 }
 
+/// The flaws of a set; nothing of another shape.
+template <int dim>
+std::optional<std::vector<Shape>> members_of(const Shape& shape, const Vector<dim>& size)
+{
+  if (const auto* const set = std::get_if<JointSet>(&shape))
+    {
+      const auto flaws = traces(*set, in_plane<dim>(size));
+      return std::vector<Shape>(flaws.begin(), flaws.end());
+    }
+  if constexpr (dim == 3)
+    if (const auto* const set = std::get_if<DiscSet>(&shape))
+      {
+        const auto flaws = discs(*set, size);
+        return std::vector<Shape>(flaws.begin(), flaws.end());
+      }
+  return std::nullopt;
+}
+
 std::string title(const std::vector<Shape>& shapes, const std::size_t k)
 {
   return fmt::format("shape {}, {}", k + 1, name(shapes[k]));
@@ -324,17 +350,30 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes, con
   for (std::size_t k = 0; k < shapes.size(); ++k)
     try
       {
-        if (const auto* set = std::get_if<JointSet>(&shapes[k]))
+        if (const auto members = members_of<dim>(shapes[k], specimen.size))
           {
             std::uint64_t n_joints = 0;
-            for (const ClosedFlaw& flaw : traces(*set, in_plane<dim>(specimen.size)))
+            for (const Shape& flaw : *members)
               {
-                put_in(specimen, Shape(flaw), smooth);
-                specimen.flaws.back().name = JointSet::name;
+                put_in(specimen, flaw, smooth);
+                specimen.flaws.back().name = name(shapes[k]);
                 n_joints += specimen.flaws.back().n_joints;
               }
             if (n_joints == 0)
               throw InputError("crosses no joint of the specimen");
+          }
+        else if (const auto* const trace = std::get_if<ClosedFlaw>(&shapes[k]); trace && trace->map_layer)
+          {
+            // A stub at a side may lie between grains, as no trace that the body holds whole.
+            const auto parts = parts_inside(*trace, in_plane<dim>(specimen.size));
+            for (const ClosedFlaw& part : parts)
+              {
+                put_in(specimen, Shape(part), smooth);
+                if (part.points == trace->points && specimen.flaws.back().n_joints == 0)
+                  throw InputError("crosses no joint: it is smaller than the grains, or lies between them");
+                if (specimen.flaws.back().n_joints == 0)
+                  specimen.flaws.pop_back();
+              }
           }
         else
           {
@@ -357,7 +396,19 @@ std::string objection(const std::vector<Shape>& shapes, const Vector<dim>& size)
   for (std::size_t k = 0; k < shapes.size(); ++k)
     if (const std::string what = objection<dim>(shapes[k], size); !what.empty())
       return fmt::format("{}: {}", title(shapes, k), what);
-  return "";
+  bool has_map = false;
+  for (const Shape& shape : shapes)
+    if (const auto* const trace = std::get_if<ClosedFlaw>(&shape); trace && trace->map_layer)
+      {
+        has_map = true;
+        if (!parts_inside(*trace, in_plane<dim>(size)).empty())
+          return "";
+      }
+  return has_map
+           ? fmt::format("no trace of the map lies in the specimen, which reaches from 0 to {:.4g}, {:.4g} mm; see the "
+                         "entries on its origin, angle and scale",
+                         1e3 * size[0], 1e3 * size[dim - 1])
+           : "";
 }
 
 template void put_in_flaws<2>(Specimen<2>&, const std::vector<Shape>&, const SmoothJointParameters&);

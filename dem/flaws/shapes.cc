@@ -2,8 +2,10 @@
 
 #include "base/parameter_id.h"
 #include "base/random.h"
+#include "dem/laws/contact_motion.h"
 #include "dem/specimen/parameters.h"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,6 +51,23 @@ std::string text_of(const Vector<dim>& point)
   for (int c = 0; c < dim; ++c)
     text += fmt::format("{}{:.4g}", c > 0 ? ", " : "", 1e3 * point[c]);
   return text + ") mm";
+}
+
+/// Stretch of a line, from `start` by multiples of `along`, that lies in a box of this size [m]; its end is not above its
+/// beginning where none does.
+std::pair<double, double> stretch_inside(const Vector<2>& start, const Vector<2>& along, double low, double high,
+                                         const Vector<2>& size)
+{
+  for (int c = 0; c < 2; ++c)
+    if (along[c] != 0.0)
+      {
+        const auto [near, far] = std::minmax({-start[c] / along[c], (size[c] - start[c]) / along[c]});
+        low = std::max(low, near);
+        high = std::min(high, far);
+      }
+    else if (start[c] < 0.0 || start[c] > size[c])
+      high = low;
+  return {low, high};
 }
 
 bool lies_in(const double value, const double size) { return value >= -slack * size && value <= (1.0 + slack) * size; }
@@ -110,7 +129,7 @@ const SmoothSides* smooth_sides(const Shape& shape)
 bool is_open(const Shape& shape)
 {
   return !std::holds_alternative<ClosedFlaw>(shape) && !std::holds_alternative<DiscFlaw>(shape) &&
-         !std::holds_alternative<JointSet>(shape);
+         !std::holds_alternative<JointSet>(shape) && !std::holds_alternative<DiscSet>(shape);
 }
 
 std::vector<Vector<2>> outline(const Shape& shape)
@@ -178,20 +197,6 @@ std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size)
         half_length = std::max(half_length, along.dot(Vector<2>(x, y)));
         half_breadth = std::max(half_breadth, across.dot(Vector<2>(x, y)));
       }
-  // Parameters of a line at which it enters and leaves the box.
-  const auto clipped = [&](const Vector<2>& start, double low, double high) {
-    for (int c = 0; c < 2; ++c)
-      if (along[c] != 0.0)
-        {
-          const auto [near, far] = std::minmax({-start[c] / along[c], (size[c] - start[c]) / along[c]});
-          low = std::max(low, near);
-          high = std::min(high, far);
-        }
-      else if (start[c] < 0.0 || start[c] > size[c])
-        high = low;
-    return std::pair(low, high);
-  };
-
   Random random(set.seed, RandomStream::joint_sets);
   std::vector<ClosedFlaw> flaws;
   const bool through = set.persistence >= 1.0;
@@ -208,7 +213,7 @@ std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size)
       const double first = through ? -half_length : -half_length - period * random.uniform();
       for (const double s : places(first, period, half_length))
         {
-          const auto [low, high] = clipped(start, s, s + (through ? period : set.trace_length));
+          const auto [low, high] = stretch_inside(start, along, s, s + (through ? period : set.trace_length), size);
           if (high > low)
             flaws.push_back({{start + low * along, start + high * along}, set.smooth});
         }
@@ -216,11 +221,79 @@ std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size)
   return flaws;
 }
 
+std::vector<DiscFlaw> discs(const DiscSet& set, const Vector<3>& size)
+{
+  Random random(set.seed, RandomStream::joint_sets);
+  const auto first = space::tangent_to({set.normal[0], set.normal[1], set.normal[2]});
+  const Vector<3> one(first[0], first[1], first[2]);
+  const Vector<3> other = set.normal.cross(one);
+  std::vector<DiscFlaw> flaws;
+  for (std::uint64_t k = 0; k < set.n; ++k)
+    {
+      Vector<3> centre;
+      for (int c = 0; c < 3; ++c)
+        centre[c] = random.uniform(0.0, size[c]);
+      // The cosine z of the angle to the mean has the density exp(κz), between -1 and 1.
+      const double u = random.uniform();
+      const double z = std::max(-1.0, 1.0 + std::log1p(u * std::expm1(-2.0 * set.concentration)) / set.concentration);
+      const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
+      const Vector<3> normal =
+        z * set.normal + std::sqrt(1.0 - z * z) * (std::cos(turn) * one + std::sin(turn) * other);
+      flaws.push_back({centre, set.radius, normal.normalized(), set.smooth});
+    }
+  return flaws;
+}
+
+std::vector<Shape> FlawParameters::placed_traces() const
+{
+  const Vector<2> x(std::cos(map.angle), std::sin(map.angle));
+  const Vector<2> y(-x[1], x[0]);
+  std::vector<Shape> placed = traces;
+  for (Shape& shape : placed)
+    {
+      auto& flaw = std::get<ClosedFlaw>(shape);
+      for (Vector<2>& point : flaw.points)
+        {
+          const Vector<2> from_origin = map.scale * (point - map.origin);
+          point = from_origin[0] * x + from_origin[1] * y;
+        }
+      if (const auto sides = map.smooth_layers.find(*flaw.map_layer); sides != map.smooth_layers.end())
+        flaw.smooth = sides->second;
+    }
+  return placed;
+}
+
+std::vector<ClosedFlaw> parts_inside(const ClosedFlaw& flaw, const Vector<2>& size)
+{
+  std::vector<ClosedFlaw> parts;
+  bool goes_on = false; // from the segment before
+  for (std::size_t k = 0; k + 1 < flaw.points.size(); ++k)
+    {
+      const Vector<2> along = flaw.points[k + 1] - flaw.points[k];
+      const auto [low, high] = stretch_inside(flaw.points[k], along, 0.0, 1.0, size);
+      if (high > low)
+        {
+          if (!goes_on || low > 0.0)
+            {
+              parts.push_back(flaw);
+              parts.back().points = {flaw.points[k] + low * along};
+            }
+          parts.back().points.push_back(high < 1.0 ? Vector<2>(flaw.points[k] + high * along) : flaw.points[k + 1]);
+        }
+      goes_on = high > low && high == 1.0;
+    }
+  return parts;
+}
+
 template <int dim>
 std::string objection(const Shape& shape, const Vector<dim>& size)
 {
+  if (const auto* const flaw = std::get_if<ClosedFlaw>(&shape); flaw && flaw->map_layer)
+    return ""; // its parts outside are left out
+
   const Vector<2> plane_size(size[0], size[dim - 1]);
-  if (dim == 2 && (std::holds_alternative<SphereHole>(shape) || std::holds_alternative<DiscFlaw>(shape)))
+  if (dim == 2 && (std::holds_alternative<SphereHole>(shape) || std::holds_alternative<DiscFlaw>(shape) ||
+                   std::holds_alternative<DiscSet>(shape)))
     return fmt::format("lies in space; it needs {} = 3", in_words(parameter_id<&SpecimenParameters::dimension>()));
   if constexpr (dim == 3)
     {

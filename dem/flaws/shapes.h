@@ -4,6 +4,7 @@
 #include "dem/laws/parameters.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -68,6 +69,8 @@ struct ClosedFlaw
   static constexpr std::string_view name = "closed flaw";
   std::vector<Vector<2>> points; ///< of a line, two at least [m]
   std::optional<SmoothSides> smooth = std::nullopt;
+  /// Layer of the joint map that it is a trace of; the parts of such a flaw outside of the body are left out.
+  std::optional<std::string> map_layer = std::nullopt;
 };
 
 /// The same as a disc; in space only.
@@ -92,13 +95,37 @@ struct JointSet
   std::optional<SmoothSides> smooth = std::nullopt;
 };
 
-using Shape = std::variant<EllipseHole, PolygonHole, SphereHole, Slot, ClosedFlaw, DiscFlaw, JointSet>;
+/// Disc flaws with random centres in the box of the specimen, whose normals scatter about a mean as Fisher's distribution
+/// says; in space only.
+struct DiscSet
+{
+  static constexpr std::string_view name = "disc set";
+  Vector<3> normal;     ///< mean, unit
+  double concentration; ///< κ: the larger, the less normals scatter
+  double radius;        ///< of each disc [m]
+  std::uint64_t n;      ///< number of discs
+  std::uint64_t seed = 1;
+  std::optional<SmoothSides> smooth = std::nullopt;
+};
+
+using Shape = std::variant<EllipseHole, PolygonHole, SphereHole, Slot, ClosedFlaw, DiscFlaw, JointSet, DiscSet>;
+
+/// The place of a joint map in the specimen, and what its layers are.
+struct MapParameters
+{
+  Vector<2> origin = Vector<2>::Zero(); ///< point of the map that lies at the lower left corner of the specimen [m]
+  double angle = 0.0;                   ///< by which the map is turned about this point [rad]
+  double scale = 1.0;                   ///< length in the specimen over that in the map
+  std::map<std::string, SmoothSides> smooth_layers; ///< whose traces are smooth; names in small letters
+  std::string text;                                 ///< of the layers, as it was written; empty: none
+};
 
 /// All that is put into a specimen, in this order.
 struct FlawParameters
 {
   std::vector<Shape> shapes;
-  std::vector<Shape> traces; ///< of a file, after the others
+  std::vector<Shape> traces; ///< of a file, in its coordinates, after the others
+  MapParameters map;         ///< of the traces
   std::string text;          ///< of the shapes, as it was written; empty: none
   std::string traces_file;   ///< empty: none
   std::string left_out;      ///< a sentence on entities of the file that are not visible and not read; empty: none
@@ -106,9 +133,13 @@ struct FlawParameters
   std::vector<Shape> all() const
   {
     std::vector<Shape> both = shapes;
-    both.insert(both.end(), traces.begin(), traces.end());
+    const auto placed = placed_traces();
+    both.insert(both.end(), placed.begin(), placed.end());
     return both;
   }
+
+  /// The traces as the map says, in coordinates of the specimen.
+  std::vector<Shape> placed_traces() const;
 };
 
 std::string_view name(const Shape& shape);
@@ -125,6 +156,12 @@ std::vector<Vector<2>> outline(const Shape& shape);
 
 /// The flaws of a set in a box of this width and height [m].
 std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size);
+
+/// The flaws of a set in a box of this size [m]; they may reach out of it.
+std::vector<DiscFlaw> discs(const DiscSet& set, const Vector<3>& size);
+
+/// The parts of a line that lie in a box of this size [m].
+std::vector<ClosedFlaw> parts_inside(const ClosedFlaw& flaw, const Vector<2>& size);
 
 /// Why it cannot be put into a body of this size [m], in the words of an error; empty if it can.
 template <int dim>

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/genesis/coring.h"
+#include "dem/genesis/grain_sizes.h"
 #include "dem/genesis/joint_installation.h"
 #include "dem/genesis/packing_file.h"
 #include "dem/genesis/static_packing.h"
@@ -25,25 +26,6 @@ namespace
 {
 constexpr double stress_tolerance = 0.01;      // of the packing stress
 constexpr double equilibrium_tolerance = 1e-3; // mean unbalanced over mean contact force
-
-/// Uniform radii, as many as fill the solid share of the volume best.
-template <int dim>
-std::vector<double> draw_radii(const SpecimenParameters& wanted, const double volume, const double thickness,
-                               const std::uint64_t seed)
-{
-  Random random(seed, RandomStream::radii);
-  const double solid = (1.0 - wanted.porosity) * volume;
-  std::vector<double> radii;
-  for (double filled = 0.0;;)
-    {
-      const double radius = wanted.minimum_radius * random.uniform(1.0, wanted.radius_ratio);
-      const double more = grain_volume<dim>(radius, thickness);
-      if (std::abs(filled + more - solid) > std::abs(filled - solid))
-        return radii;
-      radii.push_back(radius);
-      filled += more;
-    }
-}
 
 template <int dim>
 void scale_radii(Dynamics<dim>& dynamics, const double factor)
@@ -87,7 +69,8 @@ template <int dim>
 void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::function<void()>& check,
           const std::function<void()>& check_within)
 {
-  const auto radii = draw_radii<dim>(wanted, specimen.volume(), specimen.thickness, specimen.seed);
+  const auto radii =
+    draw_radii<dim>(wanted, (1.0 - wanted.porosity) * specimen.volume(), specimen.thickness, specimen.seed);
   if (radii.size() < 2)
     throw ParameterError(parameters_id<SpecimenParameters>(),
                          fmt::format("{} grain(s) fill a {} of {} m × {} m; make it larger or the grains smaller",

@@ -35,6 +35,17 @@ std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const Entr
   return entries;
 }
 
+template <typename P>
+Entry<P> strength_distribution_entry(const EntryFlags& of_rock)
+{
+  return entry::choice<P, StrengthDistribution>(
+    "Strength distribution", &P::strength_distribution,
+    {{"normal", StrengthDistribution::normal}, {"Weibull", StrengthDistribution::weibull}},
+    "of the bonds, by their means and standard deviations. Weibull: its modulus follows from these, 5 for a standard "
+    "deviation of 0.229 of the mean, 10 for 0.120, 20 for 0.062",
+    of_rock);
+}
+
 /// The entries of section Flat joint, and of those of laws with the same faces.
 template <typename P = FlatJointParameters>
 std::vector<Entry<P>> flat_joint_entries()
@@ -66,13 +77,14 @@ std::vector<Entry<P>> flat_joint_entries()
     entry::quantity<P>("Bond tensile strength", &P::bond_tensile_strength, Measure::stress, "MPa", ranges::from_zero,
                        "mean; a segment breaks in tension beyond it", basic),
     entry::quantity<P>("Bond tensile strength standard deviation", &P::bond_tensile_strength_deviation, Measure::stress,
-                       "MPa", ranges::from_zero, "of the normal distribution, redrawn while negative", basic),
+                       "MPa", ranges::from_zero, "of the distribution; a normal one is redrawn while negative", basic),
     entry::quantity<P>("Bond cohesion", &P::bond_cohesion, Measure::stress, "MPa", ranges::from_zero,
                        "mean; shear strength of a bond without normal stress", basic),
     entry::quantity<P>("Bond cohesion standard deviation", &P::bond_cohesion_deviation, Measure::stress, "MPa",
-                       ranges::from_zero, "of the normal distribution, redrawn while negative", basic),
+                       ranges::from_zero, "of the distribution; a normal one is redrawn while negative", basic),
     entry::quantity<P>("Bond friction angle", &P::bond_friction_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
                        "by which compression adds to the shear strength of a bond", basic),
+    strength_distribution_entry<P>(of_rock),
     entry::choice<P, StrengthDraw>(
       "Strength draw", &P::strength_draw,
       {{"per segment", StrengthDraw::per_segment}, {"per contact", StrengthDraw::per_contact}},
@@ -120,13 +132,14 @@ inline std::vector<Entry<ParallelBondParameters>> parallel_bond_entries()
     entry::quantity("Tensile strength", &P::bond_tensile_strength, Measure::stress, "MPa", ranges::from_zero,
                     "mean; a bond breaks in tension beyond it", of_rock),
     entry::quantity("Tensile strength standard deviation", &P::bond_tensile_strength_deviation, Measure::stress, "MPa",
-                    ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
+                    ranges::from_zero, "of the distribution; a normal one is redrawn while negative", of_rock),
     entry::quantity("Cohesion", &P::bond_cohesion, Measure::stress, "MPa", ranges::from_zero,
                     "mean; shear strength of a bond without normal force", of_rock),
     entry::quantity("Cohesion standard deviation", &P::bond_cohesion_deviation, Measure::stress, "MPa",
-                    ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
+                    ranges::from_zero, "of the distribution; a normal one is redrawn while negative", of_rock),
     entry::quantity("Friction angle", &P::bond_friction_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
-                    "by which compression adds to the shear strength of a bond", of_rock)};
+                    "by which compression adds to the shear strength of a bond", of_rock),
+    strength_distribution_entry<P>(of_rock)};
   return and_installation(entries, of_rock, of_rock);
 }
 

@@ -13,6 +13,13 @@ enum class StrengthDraw
   per_contact
 };
 
+/// Distribution of the strengths of bonds, by mean and standard deviation.
+enum class StrengthDistribution
+{
+  normal, ///< redrawn while negative
+  weibull
+};
+
 /// The faces between the grains and their bonds.
 struct FlatJointParameters
 {
@@ -28,6 +35,7 @@ struct FlatJointParameters
   double bond_cohesion = 400e6;                                 ///< [Pa]
   double bond_cohesion_deviation = 40e6;                        ///< [Pa]
   double bond_friction_angle = 10.0 * std::numbers::pi / 180.0; ///< [rad]
+  StrengthDistribution strength_distribution = StrengthDistribution::normal;
   StrengthDraw strength_draw = StrengthDraw::per_segment;
   std::optional<double> installation_gap_ratio = 0.05; ///< largest gap that gets a joint, over the mean radius
   std::optional<double> coordination_number;           ///< z = 2 joints/grains; instead of the gap, which follows
@@ -45,15 +53,16 @@ struct SofteningFlatJointParameters : FlatJointParameters
 /// The bonds between the grains; the linear contact beside each is that of ParticleContactParameters.
 struct ParallelBondParameters
 {
-  double modulus = 80e9;                               ///< E_b [Pa]; k_n = E_b/(R1+R2)
-  double stiffness_ratio = 1.25;                       ///< κ_b = k_n/k_s
-  double radius_multiplier = 1.0;                      ///< λ; R̄ = λ min(R1, R2)
-  double moment_contribution = 1.0;                    ///< β, share of the moments that counts for breaking
-  double bond_tensile_strength = 100e6;                ///< [Pa]
-  double bond_tensile_strength_deviation = 10e6;       ///< [Pa]
-  double bond_cohesion = 100e6;                        ///< [Pa]
-  double bond_cohesion_deviation = 10e6;               ///< [Pa]
-  double bond_friction_angle = 0.0;                    ///< [rad]
+  double modulus = 80e9;                         ///< E_b [Pa]; k_n = E_b/(R1+R2)
+  double stiffness_ratio = 1.25;                 ///< κ_b = k_n/k_s
+  double radius_multiplier = 1.0;                ///< λ; R̄ = λ min(R1, R2)
+  double moment_contribution = 1.0;              ///< β, share of the moments that counts for breaking
+  double bond_tensile_strength = 100e6;          ///< [Pa]
+  double bond_tensile_strength_deviation = 10e6; ///< [Pa]
+  double bond_cohesion = 100e6;                  ///< [Pa]
+  double bond_cohesion_deviation = 10e6;         ///< [Pa]
+  double bond_friction_angle = 0.0;              ///< [rad]
+  StrengthDistribution strength_distribution = StrengthDistribution::normal;
   std::optional<double> installation_gap_ratio = 0.05; ///< as of the flat joint, and all below
   std::optional<double> coordination_number;
   double gapped_fraction = 0.0;

@@ -53,7 +53,16 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
     entry::quantity("Minimum radius", &P::minimum_radius, Measure::length, "mm", ranges::above_zero, "of the grains",
                     basic_of_rock),
     entry::number("Radius ratio", &P::radius_ratio, {'[', 1.0, 100.0, ']'},
-                  "largest over smallest radius; radii are drawn uniformly between them", basic_of_rock),
+                  "largest over smallest radius; radii lie between them, as Size distribution says", basic_of_rock),
+    entry::choice(
+      "Size distribution", &P::size_distribution,
+      {{"uniform", SizeDistribution::uniform},
+       {"normal", SizeDistribution::normal},
+       {"log-normal", SizeDistribution::log_normal}},
+      "of the number of grains over the radius, between the smallest and the largest radius; normal and "
+      "log-normal have their mean half-way (of the logarithm) and a sixth of the way as standard deviation, "
+      "and are redrawn while out of bounds",
+      of_rock),
     entry::number("Porosity", &P::porosity, {'(', 0.0, 1.0, ')'},
                   "of the finished packing; with the radii it gives the number of grains; in three dimensions "
                   "0.36 unless it is given",

@@ -17,6 +17,22 @@ enum class Coring
   sides_only  ///< packed between the walls of its ends and periodic sideways, then cut at the sides
 };
 
+/// Distribution of the radii between the smallest and the largest. The bounds of the normal ones, of the radius or of its
+/// logarithm, lie three standard deviations from the middle.
+enum class SizeDistribution
+{
+  uniform,
+  normal,
+  log_normal
+};
+
+/// A point of a sieve curve.
+struct SievePoint
+{
+  double size;    ///< diameter [m]
+  double passing; ///< share of the mass in smaller grains
+};
+
 /// Default porosity in three dimensions.
 inline constexpr double porosity_in_space = 0.36;
 
@@ -29,6 +45,8 @@ struct SpecimenParameters
   double height = 0.100;          ///< along the axis of the test [m]
   double minimum_radius = 6.2e-4; ///< [m]
   double radius_ratio = 1.66;     ///< largest over smallest radius
+  SizeDistribution size_distribution = SizeDistribution::uniform;
+  std::vector<SievePoint> sieve_curve; ///< from 0 to 1; empty: the radii are drawn
   double porosity = 0.16;
   double bulk_density = 2700.0;       ///< [kg/m³]; a grain's is bulk / (1 - porosity)
   double packing_stress_ratio = 1e-4; ///< P_m/E*, mean stress of the packing over the grain contact modulus
@@ -41,6 +59,11 @@ struct SpecimenParameters
   double packing_unit = 1.0;         ///< length of 1 in columns of the packing file without a unit [m]
   std::vector<double> packing_shift; ///< of its grains, after their unit; empty: none [m]
   std::string specimen_file;         ///< a finished specimen.h5; empty: make one
+
+  double largest_radius() const
+  {
+    return sieve_curve.empty() ? radius_ratio * minimum_radius : 0.5 * sieve_curve.back().size;
+  }
 
   bool is_cored() const { return coring != Coring::none; }
 

@@ -108,6 +108,7 @@ public:
       throw InputError(fmt::format("has cells that are not {}; in Gmsh recombine the mesh", wanted));
     for (auto* const elements : {&cells, &sides})
       std::sort(elements->begin(), elements->end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+    check_sides();
     for (const Element& cell : cells)
       std::copy(cell.nodes.begin(), cell.nodes.end(), result.cells.emplace_back().nodes.begin());
     for (const Element& side : sides)
@@ -115,7 +116,6 @@ public:
         std::copy(side.nodes.begin(), side.nodes.end(), result.sides.emplace_back().nodes.begin());
         result.sides.back().group = std::uint32_t(side.group);
       }
-    check_sides();
     name_groups();
     return std::move(result);
   }
@@ -210,7 +210,15 @@ private:
     return nodes;
   }
 
-  void check_sides() const
+  std::string name_of(const int group) const
+  {
+    std::string name;
+    gmsh::model::getPhysicalName(dimension - 1, group, name);
+    return name.empty() ? fmt::format("{}", group) : name;
+  }
+
+  /// Drops the sides between two cells, such as the surface of a layer: no part of the boundary lies there.
+  void check_sides()
   {
     const std::vector<std::vector<std::size_t>> edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
     const std::vector<std::vector<std::size_t>> faces = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
@@ -233,13 +241,15 @@ private:
             throw InputError(fmt::format("more than two cells meet at the nodes {} and {}, or they do not fit together",
                                          number_of(cycle[0]), number_of(cycle[1])));
         }
-    for (const Element& side : sides)
-      {
-        const auto cycle = as_cycle(side.nodes);
-        if (const auto found = by_nodes.find(sorted(cycle)); found == by_nodes.end() || found->second.cycle != cycle)
-          throw InputError(fmt::format("the element on the nodes {} and {} is not the side of a cell",
-                                       number_of(cycle[0]), number_of(cycle[1])));
-      }
+    std::erase_if(sides, [&](const Element& side) {
+      const auto cycle = as_cycle(side.nodes);
+      const auto found = by_nodes.find(sorted(cycle));
+      if (found == by_nodes.end() || found->second.cycle != cycle)
+        throw InputError(fmt::format("element {} on the nodes {} and {}{} is not the side of a cell", side.number,
+                                     number_of(cycle[0]), number_of(cycle[1]),
+                                     side.group == 0 ? "" : ", of the group " + excerpt(name_of(side.group)) + ","));
+      return found->second.n_cells == 2;
+    });
   }
 
   void name_groups()
@@ -247,12 +257,7 @@ private:
     gmsh::vectorpair groups;
     gmsh::model::getPhysicalGroups(groups, dimension - 1);
     for (const auto& [group_dimension, group] : groups)
-      {
-        std::string name;
-        gmsh::model::getPhysicalName(group_dimension, group, name);
-        if (!name.empty())
-          result.groups[name] = std::uint32_t(group);
-      }
+      result.groups.emplace(name_of(group), std::uint32_t(group));
   }
 
   int dimension;

@@ -26,12 +26,12 @@ struct GmshMesh
   std::vector<std::array<double, 3>> nodes;
   std::vector<Cell> cells;
   std::vector<Side> sides;
-  std::map<std::string, std::uint32_t> groups; ///< of sides that have a name
+  std::map<std::string, std::uint32_t> groups; ///< of sides; one without a name has its number as name
 };
 
 /// Reads a Gmsh file (.msh) in a child process, as the library crashes on some damaged files, and checks what deal.II takes
 /// on trust: kinds of elements, finite coordinates, at most two cells at a side, each listed side one of a cell and in one
-/// physical group. The library sees a file of this kind alone: it would run a Gmsh script. Throws InputError without the
-/// name of the file.
+/// physical group. Listed sides between two cells are left out. The library sees a file of this kind alone: it would run a
+/// Gmsh script. Throws InputError without the name of the file.
 GmshMesh read_gmsh_mesh(const std::filesystem::path& file, int dimension);
 } // namespace feldspar::fem

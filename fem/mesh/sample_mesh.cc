@@ -160,7 +160,7 @@ SampleMesh<3> cylinder_sample(const MPI_Comm communicator, const double radius, 
 
 template <int dim>
 SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::path& file,
-                          const unsigned int n_refinements, const double unit)
+                          const unsigned int n_refinements, const double unit, const BoundaryNames& names)
 {
   GmshMesh from_file;
   try
@@ -179,19 +179,26 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
       cells[c].vertices[GeometryInfo<dim>::ucd_to_deal[v]] = from_file.cells[c].nodes[v];
+  SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), {from_file.groups.begin(), from_file.groups.end()}};
+  std::map<types::boundary_id, types::boundary_id> joined; // groups into the first of their boundary
+  auto boundaries = mesh.boundaries;
+  for (const auto& [name, groups] : names)
+    for (const std::string& group : groups)
+      joined[mesh.boundary(group)] = boundaries[name] = mesh.boundary(groups.front());
+  mesh.boundaries = boundaries;
   SubCellData boundary;
   for (const auto& side : from_file.sides)
     {
       CellData<dim - 1> data;
       for (unsigned int v = 0; v < GeometryInfo<dim - 1>::vertices_per_cell; ++v)
         data.vertices[GeometryInfo<dim - 1>::ucd_to_deal[v]] = side.nodes[v];
-      data.boundary_id = side.group;
+      const auto becomes = joined.find(side.group);
+      data.boundary_id = becomes == joined.end() ? side.group : becomes->second;
       if constexpr (dim == 2)
         boundary.boundary_lines.push_back(data);
       else
         boundary.boundary_quads.push_back(data);
     }
-  SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), {from_file.groups.begin(), from_file.groups.end()}};
 
   // Into a serial triangulation first, which also takes what the distributed one does not.
   Triangulation<dim> coarse;
@@ -236,6 +243,6 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
 
 template struct SampleMesh<2>;
 template struct SampleMesh<3>;
-template SampleMesh<2> read_gmsh<2>(MPI_Comm, const std::filesystem::path&, unsigned int, double);
-template SampleMesh<3> read_gmsh<3>(MPI_Comm, const std::filesystem::path&, unsigned int, double);
+template SampleMesh<2> read_gmsh<2>(MPI_Comm, const std::filesystem::path&, unsigned int, double, const BoundaryNames&);
+template SampleMesh<3> read_gmsh<3>(MPI_Comm, const std::filesystem::path&, unsigned int, double, const BoundaryNames&);
 } // namespace feldspar::fem

@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 /// Meshes of samples, and the names of their boundaries.
 ///
@@ -66,9 +67,12 @@ SampleMesh<2> axisymmetric_sample(MPI_Comm communicator, double radius, double h
 SampleMesh<3> cylinder_sample(MPI_Comm communicator, double radius, double height,
                               std::array<unsigned int, 2> divisions, unsigned int n_refinements);
 
+/// Names of boundaries, and the groups of a mesh file that each consists of.
+using BoundaryNames = std::map<std::string, std::vector<std::string>>;
+
 /// A Gmsh file (.msh, format 2 or 4, text or binary) of quadrilaterals or hexahedra, whose coordinates count in a unit [m].
-/// Boundaries are its named physical groups of lines or surfaces. Throws MeshError.
+/// Boundaries are its physical groups of lines or surfaces, by their names in the file or by `names`. Throws MeshError.
 template <int dim>
 SampleMesh<dim> read_gmsh(MPI_Comm communicator, const std::filesystem::path& file, unsigned int n_refinements,
-                          double unit = 1.0);
+                          double unit = 1.0, const BoundaryNames& names = {});
 } // namespace feldspar::fem

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -89,27 +90,25 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
       stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
     {"form", "admissible", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t"},
     {}};
-  for (const auto& pair : envelopes.hoek_brown)
-    for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
-      {
-        const std::string form =
-          fmt::format("{}, {} σ_t", title(pair.form), either == &pair.with_tension_point ? "with" : "without");
-        if (!either->fit)
-          {
-            table.rows.push_back(
-              {form, "no fit: " + with_symbols(either->reason), none, none, none, none, none, none, none, none});
-            continue;
-          }
-        const HoekBrownFit& fit = *either->fit;
-        table.rows.push_back(
-          {form, verdict_on(fit.quality, {fit.sigma_ci, fit.m, fit.s, fit.a}, fit.s.value > 1.0005 ? "✗ s > 1" : "✓"),
-           estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2), estimate(fit.a, 1.0, 3),
-           number(fit.quality.r_squared, 1.0, 4), number(fit.quality.root_mean_square / mega, 1),
-           estimate(fit.uniaxial_compressive_strength, mega, 1) +
-             beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
-           number(-fit.tensile_cut_off.value / mega, 2) +
-             beside(-fit.tensile_cut_off.value, measured.tensile_strength)});
-      }
+  for (const auto& [of_form, with_tension_point, answer] : envelopes.rows())
+    {
+      const std::string form =
+        title(of_form) + (with_tension_point ? fmt::format(", {} σ_t", *with_tension_point ? "with" : "without") : "");
+      if (!answer.fit)
+        {
+          table.rows.push_back(
+            {form, "no fit: " + with_symbols(answer.reason), none, none, none, none, none, none, none, none});
+          continue;
+        }
+      const HoekBrownFit& fit = *answer.fit;
+      table.rows.push_back(
+        {form, verdict_on(fit.quality, {fit.sigma_ci, fit.m, fit.s, fit.a}, fit.s.value > 1.0005 ? "✗ s > 1" : "✓"),
+         estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2), estimate(fit.a, 1.0, 3),
+         number(fit.quality.r_squared, 1.0, 4), number(fit.quality.root_mean_square / mega, 1),
+         estimate(fit.uniaxial_compressive_strength, mega, 1) +
+           beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
+         number(-fit.tensile_cut_off.value / mega, 2) + beside(-fit.tensile_cut_off.value, measured.tensile_strength)});
+    }
   if (const auto& fit = envelopes.mohr_coulomb.fit)
     table.rows.push_back({"Mohr–Coulomb", verdict_on(fit->quality, {fit->friction_angle, fit->cohesion}, "✓"), none,
                           none, none, none, number(fit->quality.r_squared, 1.0, 4),
@@ -187,16 +186,69 @@ PageBlock as_files(const Findings& findings, const std::size_t n, PictureBook& b
   return block;
 }
 
-/// The envelopes of the experiment's own points; empty where it has fewer than two.
+/// The envelopes of the experiment's own points, and its tests that are none of them; empty where there is neither.
 PageBlock experiment_block(const ReferenceSource& experiment)
 {
   PageBlock block;
-  if (experiment.fitted.data.points.size() < 2)
+  if (experiment.fitted.data.points.size() >= 2)
+    {
+      block.tables.push_back(fit_table(experiment.fitted, "envelopes_experiment"));
+      if (const auto& fit = experiment.fitted.mohr_coulomb.fit)
+        block.paragraphs.push_back(text_of(*fit));
+    }
+  if (!experiment.true_triaxial.empty())
+    {
+      Table table{"true_triaxial_experiment", "Strengths under three different stresses [MPa]", {"σ₃", "σ₂", "σ₁"}, {}};
+      for (const auto& [sigma_3, sigma_2, sigma_1] : experiment.true_triaxial)
+        table.rows.push_back({number(sigma_3 / mega, 1), number(sigma_2 / mega, 1), number(sigma_1 / mega, 1)});
+      block.tables.push_back(table);
+      block.paragraphs.push_back(
+        "Strengths with σ₂ above σ₃ are points of no envelope here: the criteria of Hoek and Brown "
+        "and of Mohr and Coulomb know no σ₂, which raises the strength of rock.");
+    }
+  if (!block.tables.empty())
+    block.subheading = experiment.label + ": its own points";
+  return block;
+}
+
+/// The constants of a rock mass of the wanted strength index, from the intact form of the experiment and of each series.
+PageBlock rock_mass_block(const Findings& findings)
+{
+  const ReferenceSource& experiment = findings.reference->experiment;
+  PageBlock block;
+  if (!experiment.rock_mass)
     return block;
-  block.subheading = experiment.label + ": fits of its own points";
-  block.tables.push_back(fit_table(experiment.fitted, "envelopes_experiment"));
-  if (const auto& fit = experiment.fitted.mohr_coulomb.fit)
-    block.paragraphs.push_back(text_of(*fit));
+  const auto& [strength_index, disturbance] = *experiment.rock_mass;
+  Table table{
+    "rock_mass",
+    fmt::format("Rock mass of GSI {:g} and D {:g} (Hoek, Carranza-Torres and Corkum 2002), from the intact form "
+                "without σ_t; σ_c = σ_ci sᵃ, σ_t = s σ_ci / m_b; stresses in MPa",
+                strength_index, disturbance),
+    {"intact rock", "σ_ci", "m_i", "m_b", "s", "a", "σ_c", "σ_t"},
+    {}};
+  const auto add = [&](const std::string& label, const StrengthEnvelopes& envelopes) {
+    for (const auto& [form, with_tension_point, answer] : envelopes.rows())
+      if (form == HoekBrownForm::intact && !*with_tension_point)
+        {
+          if (!answer.fit)
+            {
+              table.rows.push_back(
+                {label, "no fit: " + with_symbols(answer.reason), none, none, none, none, none, none});
+              continue;
+            }
+          const double sigma_ci = answer.fit->sigma_ci.value;
+          const auto [m, s, a] = rock_mass_constants(answer.fit->m.value, strength_index, disturbance);
+          table.rows.push_back({label, number(sigma_ci / mega, 1), number(answer.fit->m.value, 1), number(m, 3),
+                                number(s, 4), number(a, 3), number(sigma_ci * std::pow(s, a) / mega, 2),
+                                number(s * sigma_ci / m / mega, 3)});
+        }
+  };
+  add(experiment.label, experiment.fitted);
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    if (findings.is_in_full(n))
+      add(findings.all[n].label, findings.envelopes[n]);
+  block.subheading = "Rock mass";
+  block.tables.push_back(table);
   return block;
 }
 } // namespace
@@ -268,7 +320,8 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
         figures.paragraphs.push_back(text_of(*fit));
       figures.paragraphs.push_back(
         "“s and a free” (σ_ci is the measured UCS) and “a free” (s = 1) are one family of curves, drawn as one. "
-        "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0.");
+        "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0. “Regression” is Hoek's, a straight line "
+        "through (σ₁ − σ₃)² over σ₃, by which most printed m_i were found.");
       section.blocks.push_back(figures);
       PageBlock residuals;
       residuals.folded = findings.titled("Residual of every point", findings.all[n]);
@@ -280,8 +333,9 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
   append(section.blocks, findings.remark_on_pictures(fmt::format("Pictures and fits of the others are in {}/ and {}/.",
                                                                  result_file::figures, result_file::tables)));
   if (findings.reference)
-    if (PageBlock block = experiment_block(findings.reference->experiment); !block.tables.empty())
-      section.blocks.push_back(std::move(block));
+    for (PageBlock& block : std::array{experiment_block(findings.reference->experiment), rock_mass_block(findings)})
+      if (!block.tables.empty())
+        section.blocks.push_back(std::move(block));
   return section;
 }
 } // namespace feldspar

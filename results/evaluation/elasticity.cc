@@ -5,12 +5,12 @@ namespace feldspar::evaluation
 {
 namespace
 {
-/// Slopes of the gauge, 5-20 % of the peak.
+/// Slopes of the gauge.
 template <typename Y>
 Figure initial_slope(const RisingBranch& branch, const Y& y)
 {
   return branch.slope_between(
-    0.05, 0.20, [&](const CurveSample& row) { return branch.kind.sign * row.gauge_axial_strain; }, y);
+    branch.of_initial_slope, [&](const CurveSample& row) { return branch.kind.sign * row.gauge_axial_strain; }, y);
 }
 
 double expansion(const RisingBranch& branch, const CurveSample& row)
@@ -31,7 +31,7 @@ Figure youngs_modulus_initial(const RisingBranch& branch)
 Figure youngs_modulus_tangent(const RisingBranch& branch)
 {
   return branch.slope_between(
-    0.40, 0.60, [&](const CurveSample& row) { return branch.strain(row); },
+    {0.40, 0.60}, [&](const CurveSample& row) { return branch.strain(row); },
     [&](const CurveSample& row) { return branch.stress(row); });
 }
 

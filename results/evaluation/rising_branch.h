@@ -24,15 +24,24 @@ inline Figure known(const double value)
 
 inline Figure unknown(std::string reason) { return {std::nullopt, std::move(reason)}; }
 
-/// A test that went past its peak: its rising branch, positive in the sense of the test.
+/// Two shares of the peak deviator.
+struct Shares
+{
+  double low;
+  double high;
+};
+
+/// The rising branch of a test up to its peak, positive in the sense of the test. Of a test without a peak it may be the
+/// part before the first crack; its highest deviator then stands for that of the peak.
 class RisingBranch
 {
 public:
-  RisingBranch(const TestRecord& of_test, const std::size_t peak)
+  RisingBranch(const TestRecord& of_test, const std::size_t last_row, const Shares& shares = {0.05, 0.20})
     : record(of_test)
     , kind(of_test.kind)
-    , rows(of_test.curve.data(), peak + 1)
+    , rows(of_test.curve.data(), last_row + 1)
     , peak_deviator(deviator(rows.back()))
+    , of_initial_slope(shares)
   {
   }
 
@@ -52,10 +61,10 @@ public:
 
   /// Slope of y over x between two shares of the peak.
   template <typename X, typename Y>
-  Figure slope_between(const double low, const double high, X&& x_of, Y&& y_of) const
+  Figure slope_between(const Shares& shares, X&& x_of, Y&& y_of) const
   {
-    const std::size_t begin = row_at(low);
-    const std::size_t end = row_at(high);
+    const std::size_t begin = row_at(shares.low);
+    const std::size_t end = row_at(shares.high);
     if (end < begin + 2)
       return unknown("fewer than three rows of the curve between these stresses: choose a smaller sampling strain");
     std::vector<double> x, y;
@@ -93,5 +102,6 @@ public:
   const TestKind& kind;
   std::span<const CurveSample> rows;
   double peak_deviator;
+  Shares of_initial_slope; ///< between which the initial elastic constants are measured
 };
 } // namespace feldspar

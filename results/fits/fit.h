@@ -25,6 +25,7 @@ struct StrengthData
   std::vector<EnvelopePoint> points;                   ///< the uniaxial test is the one at sigma_3 = 0
   std::optional<double> uniaxial_compressive_strength; ///< measured [Pa]
   std::optional<double> tensile_strength;              ///< measured, positive [Pa]
+  bool tension_is_indirect = false;                    ///< of Brazilian tests, where there is no direct tension
   bool of_flawed_body = false; ///< then they are highest nominal stresses, and no strengths of the rock
 };
 

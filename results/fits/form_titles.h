@@ -15,6 +15,8 @@ inline std::string title(const HoekBrownForm form)
       return "s and a free";
     case HoekBrownForm::intact:
       return "intact";
+    case HoekBrownForm::regressed:
+      return "intact, regression"; // of (σ_1 - σ_3)²
     default:
       return "a free";
     }
@@ -23,7 +25,8 @@ inline std::string title(const HoekBrownForm form)
 /// The same by the name of an envelope in result files.
 inline std::string title_of_form(const std::string& name_in_files)
 {
-  for (const auto form : {HoekBrownForm::as_paper, HoekBrownForm::intact, HoekBrownForm::general})
+  for (const auto form :
+       {HoekBrownForm::as_paper, HoekBrownForm::intact, HoekBrownForm::general, HoekBrownForm::regressed})
     if (name_in_files == name(form))
       return title(form);
   return "Mohr–Coulomb";

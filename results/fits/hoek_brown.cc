@@ -1,11 +1,15 @@
 #include "results/fits/hoek_brown.h"
 
+#include "base/prefixes.h"
+
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/jet.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <fmt/format.h>
+
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -291,6 +295,8 @@ std::string name(const HoekBrownForm form)
       return "intact";
     case HoekBrownForm::general:
       return "general";
+    case HoekBrownForm::regressed:
+      return "intact_by_regression";
     }
   return "";
 }
@@ -342,6 +348,63 @@ FitOrReason<HoekBrownFit> fit_hoek_brown(const StrengthData& data, const HoekBro
   if (result.fit)
     result.fit->with_tension_point = with_tension_point;
   return result;
+}
+
+FitOrReason<HoekBrownFit> regress_hoek_brown(const StrengthData& data)
+{
+  constexpr int n_parameters = 2;
+  if (const auto objection = objection_to(data.points, n_parameters); !objection.empty())
+    return {std::nullopt, objection};
+  const auto n = Eigen::Index(data.points.size());
+  Eigen::MatrixXd jacobian(n, n_parameters);
+  Eigen::VectorXd squares(n); // in MPa, so that both columns are of like size
+  for (Eigen::Index i = 0; i < n; ++i)
+    {
+      const auto& [sigma_3, sigma_1] = data.points[std::size_t(i)];
+      jacobian.row(i) << sigma_3 / mega, 1.0;
+      squares[i] = std::pow((sigma_1 - sigma_3) / mega, 2);
+    }
+  const Eigen::VectorXd line = jacobian.colPivHouseholderQr().solve(squares);
+  const double slope = line[0];
+  const double sigma_ci = std::sqrt(line[1]);
+  if (!(slope > 0.0 && sigma_ci > 0.0))
+    return {std::nullopt,
+            fmt::format("the line through (sigma_1 - sigma_3)² over sigma_3 has the slope {:.3g} MPa and begins "
+                        "at {:.3g} MPa²; both must be above 0",
+                        slope, line[1])};
+
+  Eigen::MatrixXd gradients(3, n_parameters);
+  gradients.row(0) << 0.0, 0.5 / sigma_ci;
+  gradients.row(1) << 1.0 / sigma_ci, -0.5 * slope / std::pow(sigma_ci, 3);
+  gradients.row(2) << line[1] / (slope * slope), -1.0 / slope;
+  const auto half_width = half_widths(jacobian, (squares - jacobian * line).squaredNorm(), n_parameters, gradients);
+  const auto in_pascal = [](Figure figure) {
+    if (figure.value)
+      *figure.value *= mega;
+    return figure;
+  };
+  HoekBrownFit fit;
+  fit.form = HoekBrownForm::regressed;
+  fit.with_tension_point = false;
+  fit.sigma_ci = fit.uniaxial_compressive_strength = {sigma_ci * mega, in_pascal(half_width[0])};
+  fit.m = {slope / sigma_ci, half_width[1]};
+  fit.s = {1.0, {std::nullopt, "it is 1 by definition"}};
+  fit.a = {0.5, {std::nullopt, "it is 0.5 by definition"}};
+  fit.tensile_cut_off = {-line[1] / slope * mega, in_pascal(half_width[2])};
+  std::vector<double> fitted;
+  for (const auto& point : data.points)
+    fitted.push_back(fit.sigma_1(point.sigma_3));
+  if (std::any_of(fitted.begin(), fitted.end(), [](const double sigma_1) { return std::isnan(sigma_1); }))
+    return {std::nullopt, "a point lies beyond the tensile cut-off of the regression"};
+  fit.quality = quality(data.points, fitted, n_parameters);
+  return {fit, ""};
+}
+
+RockMassConstants rock_mass_constants(const double m_i, const double strength_index, const double disturbance)
+{
+  return {m_i * std::exp((strength_index - 100.0) / (28.0 - 14.0 * disturbance)),
+          std::exp((strength_index - 100.0) / (9.0 - 3.0 * disturbance)),
+          0.5 + (std::exp(-strength_index / 15.0) - std::exp(-20.0 / 3.0)) / 6.0};
 }
 
 std::optional<double> rock_constant(const std::vector<EnvelopePoint>& in_compression)

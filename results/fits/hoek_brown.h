@@ -11,7 +11,8 @@ enum class HoekBrownForm
 {
   as_paper, ///< m, s, a; sigma_ci is the measured uniaxial compressive strength
   intact,   ///< sigma_ci, m (m_i of intact rock); s = 1, a = 0.5
-  general   ///< sigma_ci, m, a; s = 1
+  general,  ///< sigma_ci, m, a; s = 1
+  regressed ///< the intact form by Hoek's regression of (sigma_1 - sigma_3)² over sigma_3
 };
 
 /// The name used in result files.
@@ -41,6 +42,23 @@ struct HoekBrownFit
 /// measured tensile strength counts as one point more, (-sigma_t, 0), at which the bracket stays >= 0. The same data
 /// give the same bits.
 FitOrReason<HoekBrownFit> fit_hoek_brown(const StrengthData& data, HoekBrownForm form, bool with_tension_point);
+
+/// The intact form by the linear regression of (sigma_1 - sigma_3)² = m sigma_ci sigma_3 + sigma_ci² over sigma_3 (Hoek and
+/// Brown 1980), by which most printed m_i were found. It weighs the strong points most, and so gives another m than least
+/// squares in sigma_1.
+FitOrReason<HoekBrownFit> regress_hoek_brown(const StrengthData& data);
+
+/// The constants of a rock mass.
+struct RockMassConstants
+{
+  double m;
+  double s;
+  double a;
+};
+
+/// Constants of a rock mass of this geological strength index and disturbance D from 0 to 1 (Hoek, Carranza-Torres and Corkum
+/// 2002).
+RockMassConstants rock_mass_constants(double m_i, double strength_index, double disturbance);
 
 /// m_i of intact rock by its strengths in compression: m of the intact form through these points, two of which suffice. None
 /// without a confined one beside the uniaxial one, and where the deviator does not grow with the pressure.

@@ -41,7 +41,10 @@ StrengthData strength_data(const std::vector<FinishedTest>& tests, const std::op
   if (by_confinement.contains(0.0))
     data.uniaxial_compressive_strength = statistics(by_confinement[0.0])->mean;
   if (const auto mean = statistics(direct.empty() ? indirect : direct))
-    data.tensile_strength = mean->mean;
+    {
+      data.tensile_strength = mean->mean;
+      data.tension_is_indirect = direct.empty();
+    }
   return data;
 }
 } // namespace feldspar

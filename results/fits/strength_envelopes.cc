@@ -37,10 +37,12 @@ void add_measured(std::vector<FitEntry>& entries, const StrengthData& data)
   entries.push_back({"measured_tensile_strength_Pa", figure(data.tensile_strength)});
 }
 
-FitRecord record(const HoekBrownForm form, const std::string& variant, const FitOrReason<HoekBrownFit>& fit_or_reason,
-                 const StrengthData& data)
+FitRecord record(const HoekBrownRow& row, const StrengthData& data)
 {
-  FitRecord result{name(form), variant, fit_or_reason.reason, {}, {}};
+  const auto& fit_or_reason = row.answer;
+  FitRecord result{name(row.form), "", fit_or_reason.reason, {}, {}};
+  if (row.with_tension_point)
+    result.variant = *row.with_tension_point ? "with_tension_point" : "without_tension_point";
   if (!fit_or_reason.fit)
     return result;
   const auto& fit = *fit_or_reason.fit;
@@ -144,6 +146,18 @@ bool rises_more_steeply_under_confinement(const StrengthData& data)
            *data.uniaxial_compressive_strength / *data.tensile_strength;
 }
 
+std::vector<HoekBrownRow> StrengthEnvelopes::rows() const
+{
+  std::vector<HoekBrownRow> all;
+  for (const HoekBrownPair& pair : hoek_brown)
+    {
+      all.push_back({pair.form, true, pair.with_tension_point});
+      all.push_back({pair.form, false, pair.without_tension_point});
+    }
+  all.push_back({HoekBrownForm::regressed, std::nullopt, regressed});
+  return all;
+}
+
 const HoekBrownFit* StrengthEnvelopes::representative() const
 {
   const HoekBrownFit* const intact = fit_with_freedom(*this, HoekBrownForm::intact);
@@ -165,7 +179,7 @@ std::optional<double> miss_of_intact_form(const StrengthEnvelopes& envelopes)
 
 StrengthEnvelopes fit_strength_envelopes(const StrengthData& data)
 {
-  StrengthEnvelopes result{data, {}, fit_mohr_coulomb(data)};
+  StrengthEnvelopes result{data, {}, regress_hoek_brown(data), fit_mohr_coulomb(data)};
   for (const auto form : {HoekBrownForm::as_paper, HoekBrownForm::intact, HoekBrownForm::general})
     result.hoek_brown.push_back({form, fit_hoek_brown(data, form, true), fit_hoek_brown(data, form, false)});
   return result;
@@ -174,11 +188,8 @@ StrengthEnvelopes fit_strength_envelopes(const StrengthData& data)
 std::vector<FitRecord> records(const StrengthEnvelopes& envelopes)
 {
   std::vector<FitRecord> result;
-  for (const auto& pair : envelopes.hoek_brown)
-    {
-      result.push_back(record(pair.form, "with_tension_point", pair.with_tension_point, envelopes.data));
-      result.push_back(record(pair.form, "without_tension_point", pair.without_tension_point, envelopes.data));
-    }
+  for (const HoekBrownRow& row : envelopes.rows())
+    result.push_back(record(row, envelopes.data));
   result.push_back(record(envelopes.mohr_coulomb, envelopes.data));
   return result;
 }
@@ -191,38 +202,37 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   std::vector<std::string> notes;
   rows.push_back({"Hoek-Brown", "sigma_ci", "m", "s", "a"});
   strengths.push_back({"Hoek-Brown", "R²", "RMS", "UCS", "sigma_t"});
-  for (const auto& pair : envelopes.hoek_brown)
-    for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
-      {
-        const std::string form = title(pair.form) + (either == &pair.with_tension_point ? "" : ", no σ_t");
-        if (!either->fit)
-          {
-            notes.push_back(fmt::format("{}: no fit: {}", form, either->reason));
-            continue;
-          }
-        const auto& fit = *either->fit;
-        rows.push_back({form, text(fit.sigma_ci, 1, 1e6), text(fit.m, 2), text(fit.s, 3), text(fit.a, 3)});
-        strengths.push_back({form, text(fit.quality.r_squared, 4),
-                             fmt::format("{:.1f}", fit.quality.root_mean_square / 1e6),
-                             text(fit.uniaxial_compressive_strength, 1, 1e6),
-                             text(Estimate{-fit.tensile_cut_off.value, fit.tensile_cut_off.half_width}, 2, 1e6)});
-        // A value that the form itself fixes is no result.
-        const bool fixes_s = pair.form != HoekBrownForm::as_paper;
-        std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
-        const auto add_reason = [&](const std::string& parameter, const Figure& half_width) {
-          if (half_width.value)
-            return;
-          if (reasons.empty() || reasons.back().first != half_width.reason)
-            reasons.push_back({half_width.reason, {}});
-          reasons.back().second.push_back(parameter);
-        };
-        add_reason("m", fit.m.half_width);
-        add_reason(fixes_s ? "sigma_ci" : "s", fixes_s ? fit.sigma_ci.half_width : fit.s.half_width);
-        if (pair.form != HoekBrownForm::intact)
-          add_reason("a", fit.a.half_width);
-        for (const auto& [reason, parameters] : reasons)
-          notes.push_back(fmt::format("{}: no interval of {}: {}", form, fmt::join(parameters, ", "), reason));
-      }
+  for (const auto& [of_form, with_tension_point, answer] : envelopes.rows())
+    {
+      const std::string form = title(of_form) + (with_tension_point.value_or(true) ? "" : ", no σ_t");
+      if (!answer.fit)
+        {
+          notes.push_back(fmt::format("{}: no fit: {}", form, answer.reason));
+          continue;
+        }
+      const auto& fit = *answer.fit;
+      rows.push_back({form, text(fit.sigma_ci, 1, 1e6), text(fit.m, 2), text(fit.s, 3), text(fit.a, 3)});
+      strengths.push_back({form, text(fit.quality.r_squared, 4),
+                           fmt::format("{:.1f}", fit.quality.root_mean_square / 1e6),
+                           text(fit.uniaxial_compressive_strength, 1, 1e6),
+                           text(Estimate{-fit.tensile_cut_off.value, fit.tensile_cut_off.half_width}, 2, 1e6)});
+      // A value that the form itself fixes is no result.
+      const bool fixes_s = of_form != HoekBrownForm::as_paper;
+      std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+      const auto add_reason = [&](const std::string& parameter, const Figure& half_width) {
+        if (half_width.value)
+          return;
+        if (reasons.empty() || reasons.back().first != half_width.reason)
+          reasons.push_back({half_width.reason, {}});
+        reasons.back().second.push_back(parameter);
+      };
+      add_reason("m", fit.m.half_width);
+      add_reason(fixes_s ? "sigma_ci" : "s", fixes_s ? fit.sigma_ci.half_width : fit.s.half_width);
+      if (of_form == HoekBrownForm::as_paper || of_form == HoekBrownForm::general)
+        add_reason("a", fit.a.half_width);
+      for (const auto& [reason, parameters] : reasons)
+        notes.push_back(fmt::format("{}: no interval of {}: {}", form, fmt::join(parameters, ", "), reason));
+    }
   const auto measured = [](const std::optional<double>& value, const int decimals) {
     return value ? fmt::format("{:.{}f}", *value / 1e6, decimals) : std::string("-");
   };
@@ -252,6 +262,8 @@ std::string remark(const StrengthEnvelopes& envelopes)
     std::string(envelopes.data.of_flawed_body
                   ? "The points are highest nominal stresses of a body with flaws, not strengths of the rock. "
                   : "") +
+    (envelopes.data.tension_is_indirect ? "The tensile strength is that of Brazilian tests, for want of direct ones. "
+                                        : "") +
     "Admissible is s <= 1: with s > 1 the rock would be stronger than intact." + remark_on_intact_form(envelopes);
   const auto with_free_s = std::find_if(envelopes.hoek_brown.begin(), envelopes.hoek_brown.end(),
                                         [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });

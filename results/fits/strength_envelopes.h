@@ -16,12 +16,24 @@ struct HoekBrownPair
   FitOrReason<HoekBrownFit> without_tension_point;
 };
 
+/// A fit of Hoek and Brown's form among all.
+struct HoekBrownRow
+{
+  HoekBrownForm form;
+  std::optional<bool> with_tension_point; ///< none of a form that is fitted in one way only
+  const FitOrReason<HoekBrownFit>& answer;
+};
+
 /// Every envelope of the same data.
 struct StrengthEnvelopes
 {
   StrengthData data;
   std::vector<HoekBrownPair> hoek_brown; ///< as_paper, intact, general
+  FitOrReason<HoekBrownFit> regressed;   ///< without the tension point
   FitOrReason<MohrCoulombFit> mohr_coulomb;
+
+  /// The fits of Hoek and Brown's form, in the order of tables; they refer to these envelopes.
+  std::vector<HoekBrownRow> rows() const;
 
   /// The envelope that stands for these strengths where only one is drawn: the intact form, with the tension point of
   /// strengths that have one. Where that misses its points and the general form does by less than half as much, the
@@ -52,7 +64,7 @@ struct FitEntry
 /// A fit as result files have it.
 struct FitRecord
 {
-  std::string form;    ///< as_paper, intact, general or mohr_coulomb
+  std::string form;    ///< as_paper, intact, general, intact_by_regression or mohr_coulomb
   std::string variant; ///< with_tension_point or without_tension_point; empty where there is only one
   std::string reason;  ///< why there is no fit; then the rest is empty
   /// Each estimate is followed by its `_confidence_95`, the half-width of its 95 % interval.

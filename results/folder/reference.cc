@@ -38,6 +38,8 @@ struct Property
 constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};
 constexpr Property other_strength{"KIND_strength_MPa", 1e-3, 20000.0};
 constexpr Property confinement{"confining_pressure_MPa", 0.0, 5000.0};
+constexpr Property least_stress{"sigma_3_MPa", -1000.0, 5000.0};
+constexpr Property largest_stress{"sigma_1_MPa", 0.0, 20000.0};
 
 /// Largest number of single tests, and of figures, of a source: the fits of its envelopes take seconds with a thousand points.
 constexpr std::size_t most_strengths = 1000;
@@ -213,28 +215,64 @@ PrintedEnvelope envelope_of(const Json& json, const Place& place)
           given("a", 0.01, 1.0)};
 }
 
-std::vector<EnvelopePoint> triaxial_of(const Json& json, const Place& place)
+RockMass rock_mass_of(const Json& json, const Place& place)
+{
+  expect_object(json, {"GSI", "D", "note"}, place);
+  if (!json.contains("GSI"))
+    place.refuse("GSI is missing, the geological strength index from 5 to 100");
+  return {number(json["GSI"], {"GSI", 5.0, 100.0}, place / "GSI"),
+          json.contains("D") ? number(json["D"], {"D", 0.0, 1.0}, place / "D") : 0.0};
+}
+
+/// Adds a test by its principal stresses. One whose sigma_2 differs from sigma_3 is no point of an envelope, but for an
+/// extension test, which breaks under a negative sigma_3.
+void add_principal_stresses(ReferenceSource& source, const Json& json, const Place& at)
+{
+  expect_object(json, {"sigma_1_MPa", "sigma_2_MPa", "sigma_3_MPa", "note"}, at);
+  const auto stress = [&](const char* const key, const Property& property) {
+    if (!json.contains(key))
+      at.refuse(fmt::format("{} is missing", key));
+    return mega * number(json[key], property, at / key);
+  };
+  const double sigma_3 = stress("sigma_3_MPa", least_stress);
+  const double sigma_1 = stress("sigma_1_MPa", largest_stress);
+  const double sigma_2 =
+    json.contains("sigma_2_MPa") ? stress("sigma_2_MPa", {"sigma_2_MPa", -1000.0, 20000.0}) : sigma_3;
+  if (!(sigma_3 <= sigma_2 && sigma_2 <= sigma_1 && sigma_3 < sigma_1))
+    at.refuse("sigma_1 must be the largest and sigma_3 the least stress, compression positive");
+  if (sigma_2 != sigma_3 && sigma_3 >= 0.0)
+    source.true_triaxial.push_back({sigma_3, sigma_2, sigma_1});
+  else
+    source.triaxial.push_back({sigma_3, sigma_1});
+}
+
+void add_triaxial(ReferenceSource& source, const Json& json, const Place& place)
 {
   if (!json.is_array() || json.empty())
     place.refuse(R"(must be a list of tests, [{"confining_pressure_MPa": 5, "strength_MPa": 240}, ...])");
   if (json.size() > most_strengths)
     place.refuse(fmt::format("has {} tests; there must be at most {}", json.size(), most_strengths));
-  std::vector<EnvelopePoint> points;
   for (std::size_t k = 0; k < json.size(); ++k)
     {
       const Place at = place / fmt::format("{}", k + 1);
+      if (json[k].is_object() && (json[k].contains("sigma_1_MPa") || json[k].contains("sigma_3_MPa")))
+        {
+          add_principal_stresses(source, json[k], at);
+          continue;
+        }
       expect_object(json[k], {"confining_pressure_MPa", "strength_MPa", "note"}, at);
       for (const char* const key : {"confining_pressure_MPa", "strength_MPa"})
         if (!json[k].contains(key))
           at.refuse(fmt::format("{} is missing", key));
-      points.push_back({mega * number(json[k]["confining_pressure_MPa"], confinement, at / "confining_pressure_MPa"),
-                        mega * number(json[k]["strength_MPa"], confined_strength, at / "strength_MPa")});
-      if (points.back().sigma_1 <= points.back().sigma_3)
+      const EnvelopePoint point{mega *
+                                  number(json[k]["confining_pressure_MPa"], confinement, at / "confining_pressure_MPa"),
+                                mega * number(json[k]["strength_MPa"], confined_strength, at / "strength_MPa")};
+      if (point.sigma_1 <= point.sigma_3)
         at.refuse("strength_MPa is sigma_1, which lies above the confining pressure");
+      source.triaxial.push_back(point);
     }
-  std::stable_sort(points.begin(), points.end(),
+  std::stable_sort(source.triaxial.begin(), source.triaxial.end(),
                    [](const EnvelopePoint& a, const EnvelopePoint& b) { return a.sigma_3 < b.sigma_3; });
-  return points;
 }
 
 /// Fewest tests for a range. From two, the range in which 95 % of further tests would lie holds nearly every rock.
@@ -245,7 +283,12 @@ void add_means(ReferenceSource& source)
 {
   std::map<std::string, std::vector<double>> strengths;
   for (const auto& [sigma_3, sigma_1] : source.triaxial)
-    strengths[key_of_strength(sigma_3)].push_back(sigma_1 / mega);
+    if (sigma_3 >= 0.0)
+      strengths[key_of_strength(sigma_3)].push_back(sigma_1 / mega);
+  for (const auto& [sigma_3, sigma_2, sigma_1] : source.true_triaxial)
+    strengths[fmt::format("triaxial_compression_{:g}_MPa_intermediate_{:g}_MPa_strength_MPa", sigma_3 / mega,
+                          sigma_2 / mega)]
+      .push_back(sigma_1 / mega);
   for (const auto& [key, tests] : strengths)
     {
       const Statistics over_tests = *statistics(tests);
@@ -265,7 +308,10 @@ StrengthData strengths_of(const ReferenceSource& source)
   };
   StrengthData data{{}, mean("uniaxial_compressive_strength_MPa"), mean("tensile_strength_MPa")};
   if (!data.tensile_strength)
-    data.tensile_strength = mean("brazilian_strength_MPa");
+    {
+      data.tensile_strength = mean("brazilian_strength_MPa");
+      data.tension_is_indirect = data.tensile_strength.has_value();
+    }
   for (const auto& point : source.triaxial)
     if (point.sigma_3 == 0.0)
       data.points.push_back(point);
@@ -302,9 +348,14 @@ ReferenceSource source_of(const Json& json, const std::string& label, const std:
       else if (name == "hoek_brown")
         source.envelope = envelope_of(entry, at);
       else if (name == "triaxial")
-        source.triaxial = triaxial_of(entry, at);
+        add_triaxial(source, entry, at);
+      else if (name == "rock_mass")
+        source.rock_mass = rock_mass_of(entry, at);
       else if (const auto property = property_of(name, kinds))
-        source.values[name] = value_of(entry, *property, at);
+        {
+          if (!entry.is_null()) // not measured
+            source.values[name] = value_of(entry, *property, at);
+        }
       else
         {
           std::vector<std::string_view> known;
@@ -313,7 +364,7 @@ ReferenceSource source_of(const Json& json, const std::string& label, const std:
               known.push_back(one.key);
           at.refuse(
             fmt::format("no such property; there are {}, strength_at_P_MPa for a pressure P in MPa{}, hoek_brown, "
-                        "triaxial, label, note and failure",
+                        "triaxial, rock_mass, label, note and failure",
                         fmt::join(known, ", "), keys_of_others(kinds)));
         }
     }
@@ -350,7 +401,7 @@ std::vector<EnvelopePoint> ReferenceSource::strengths() const
 {
   std::vector<EnvelopePoint> points;
   for (const auto& point : triaxial)
-    if (point.sigma_3 > 0.0)
+    if (point.sigma_3 != 0.0)
       points.push_back(point);
   const auto singles = points;
   for (const auto& [name, value] : values)

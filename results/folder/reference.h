@@ -47,18 +47,35 @@ struct PrintedLine
   double sigma_1(double sigma_3) const;
 };
 
+/// A test under three different stresses, compression positive.
+struct TrueTriaxialTest
+{
+  double sigma_3; ///< [Pa]
+  double sigma_2; ///< [Pa]
+  double sigma_1; ///< [Pa]
+};
+
+/// The rock mass that a source wants constants of.
+struct RockMass
+{
+  double strength_index; ///< GSI
+  double disturbance;    ///< D, 0 to 1
+};
+
 /// One column of the reference file.
 struct ReferenceSource
 {
   std::string label;
   std::map<std::string, ReferenceValue> values; ///< by their names in the file, which end in their units
   std::optional<PrintedEnvelope> envelope;
-  std::vector<EnvelopePoint> triaxial; ///< single tests, also unconfined ones
-  StrengthEnvelopes fitted;            ///< to its strengths
+  std::vector<EnvelopePoint> triaxial; ///< single tests, also unconfined ones and those with a negative sigma_3
+  std::vector<TrueTriaxialTest> true_triaxial;
+  std::optional<RockMass> rock_mass;
+  StrengthEnvelopes fitted; ///< to its strengths
 
   /// Value of a key in units of `scale`; none if it is not there.
   std::optional<ReferenceValue> find(const std::string& key, double scale = 1.0) const;
-  /// Strengths of the source under confinement by rising pressure: the single tests, and `strength_at_5_MPa` and so on
+  /// Strengths of the source at a sigma_3 other than 0 by rising pressure: the single tests, and `strength_at_5_MPa` and so on
   /// where there are none [Pa].
   std::vector<EnvelopePoint> strengths() const;
   /// Line by the friction angle and cohesion of the source; none without both.

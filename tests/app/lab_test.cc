@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -725,6 +726,44 @@ TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
   refused("Specimen/Width = 8 mm' --set 'Specimen/Width = 9 mm", ": Specimen/Width: is given twice");
 }
 
+// A template is an input of a first run as it stands, and its reference is one that a report can be set beside.
+TEST(New, WritesInputsThatPassTheCheckAndRun)
+{
+  const TemporaryFolder folder;
+  for (const std::string name : {"rock", "study", "sample"})
+    {
+      const auto made = run_feldspar(folder.path(), "new " + name + " --output mine");
+      ASSERT_EQ(made.exit_code, 0) << made.error;
+      const std::string command = name == "sample" ? "multiscale" : "lab";
+      EXPECT_NE(made.output.find("Next: feldspar " + command + " mine/" + name + ".prm"), std::string::npos);
+      const std::string text = content(folder.path() / "mine" / (name + ".prm"));
+      EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 200) << "of a first year";
+      EXPECT_NE(text.find("\n  set Reference file = " + name + "-reference.json\n"), std::string::npos);
+      // Every line that is a comment would be read, too.
+      const std::string all = std::regex_replace(text, std::regex("# set "), "set ");
+      folder.write("mine/all.prm", all);
+      for (const std::string& input : {name, std::string("all")})
+        {
+          const auto check = run_feldspar(folder.path(), "parameters --check mine/" + input + ".prm --for " + command);
+          EXPECT_EQ(check.exit_code, 0) << check.error << all;
+        }
+      const auto run =
+        run_without_pictures(folder.path(), command + " mine/" + name + ".prm --output " + name + " --quiet");
+      EXPECT_EQ(run.exit_code, 0) << run.error;
+      EXPECT_TRUE(std::filesystem::exists(folder.path() / name / "summary.json"));
+    }
+
+  // Neither file is written over, nor one of them made anew.
+  folder.write("mine/study-reference.json", "mine");
+  std::filesystem::remove(folder.path() / "mine/study.prm");
+  const auto again = run_feldspar(folder.path(), "new study --output mine");
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_EQ(again.error, "feldspar: mine/study-reference.json: is there already; name another folder by --output\n");
+  EXPECT_EQ(content(folder.path() / "mine/study-reference.json"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "mine/study.prm"));
+  EXPECT_EQ(run_feldspar(folder.path(), "new stone").exit_code, 2);
+}
+
 TEST(Help, IsThereByTheWordsThatUsersTry)
 {
   const TemporaryFolder folder;
@@ -746,7 +785,8 @@ TEST(Help, IsThereForManAndBash)
 {
   const TemporaryFolder folder;
   const std::string page = run_feldspar(folder.path(), "manual").output;
-  for (const char* const command : {"lab", "rve", "multiscale", "specimen", "contact", "report", "parameters", "help"})
+  for (const char* const command :
+       {"lab", "rve", "multiscale", "specimen", "contact", "report", "parameters", "new", "help"})
     EXPECT_NE(page.find(fmt::format("\n.SS {}\n", command)), std::string::npos) << command;
   std::string names = run_feldspar(folder.path(), "parameters").output;
   const std::size_t further = names.find("\nFURTHER ENTRIES\n");

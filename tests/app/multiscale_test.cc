@@ -423,7 +423,12 @@ TEST(Multiscale, TakesAMeshOfGmshForItsSample)
   folder.write("mesh.prm", input("  set Mesh file = squares.msh\n", tests));
   folder.write("millimetres.msh", two_squares_in_millimetres());
   folder.write("scaled.prm", input("  set Mesh file = millimetres.msh\n  set Mesh unit = mm\n", tests));
-  for (const std::string name : {"own", "mesh", "scaled"})
+  // Top by another name, and a layer: a line between both squares.
+  std::string layers = two_squares("roof", squares);
+  layers.replace(layers.find("$Elements\n8"), 11, "$Elements\n9");
+  folder.write("layers.msh", layers.replace(layers.find("7 3 2 5"), 0, "9 1 2 6 5 3 4\n"));
+  folder.write("layers.prm", input("  set Mesh file = layers.msh\n  set Mesh names = top = roof\n", tests));
+  for (const std::string name : {"own", "mesh", "scaled", "layers"})
     {
       const auto run = run_without_pictures(folder.path(), "multiscale " + name + ".prm --output " + name + " --quiet");
       ASSERT_EQ(run.exit_code, 0) << run.error;
@@ -435,6 +440,7 @@ TEST(Multiscale, TakesAMeshOfGmshForItsSample)
   expect_ends_to_agree(folder.path() / "own/curves/direct_tension_seed_1.csv");
   EXPECT_NEAR(stress("mesh"), stress("own"), 1e-9 * stress("own"));
   EXPECT_NEAR(stress("scaled"), stress("own"), 1e-9 * stress("own"));
+  EXPECT_EQ(stress("layers"), stress("mesh"));
   EXPECT_GT(stress("own"), 1e6);
 }
 
@@ -451,7 +457,8 @@ TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
     EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   };
-  refused(two_squares("roof", squares), "no boundary is named top; the mesh has bottom, left, right, roof");
+  refused(two_squares("roof", squares),
+          "no boundary is named top; the mesh has bottom, left, right, roof; set Mesh names = top = NAME");
   refused(two_squares("top", squares, "-0.001 0.012"), "the cell at");
   refused(two_squares("top", "10\n" + sides + "7 2 2 5 1 1 2 4\n8 2 2 5 1 1 4 3\n9 2 2 5 1 3 4 6\n10 2 2 5 1 3 6 5\n"),
           "has cells that are not quadrilaterals; in Gmsh recombine the mesh");

@@ -500,6 +500,27 @@ TEST_F(Report, WithoutItsReferenceSaysSoInItsPlace)
   holds(remade(), {"Nothing to compare with: there is no reference file"});
 }
 
+// Points of σ₁ = σ₃ + 100 sqrt(12 σ₃/100 + 1) MPa: the rock mass of GSI 45 then has m_b = 12 exp(-55/28) = 1.683, s = 0.0022
+// and a = 0.508 (Hoek and others 2002). A strength under three different stresses is no point of it.
+TEST_F(Report, OfAReferenceWithPrincipalStressesHasItsRockMass)
+{
+  folder.write("rock.json", R"({"experiment": {"rock_mass": {"GSI": 45}, "triaxial": [
+    {"sigma_1_MPa": 100, "sigma_3_MPa": 0}, {"sigma_1_MPa": 158.3239697, "sigma_3_MPa": 10},
+    {"sigma_1_MPa": 204.3908891, "sigma_3_MPa": 20}, {"sigma_1_MPa": 280.8318916, "sigma_3_MPa": 40},
+    {"sigma_1_MPa": 300, "sigma_2_MPa": 60, "sigma_3_MPa": 20}]}})");
+  const auto made = run_without_pictures(folder.path(), "report out --reference rock.json --output mass --quiet");
+  ASSERT_EQ(made.exit_code, 0) << made.error;
+  EXPECT_NE(
+    content(folder.path() / "mass/tables/rock_mass.csv").find("experiment,100.0,12.0,1.683,0.0022,0.508,4.48,0.132"),
+    std::string::npos)
+    << content(folder.path() / "mass/tables/rock_mass.csv");
+  EXPECT_NE(content(folder.path() / "mass/tables/true_triaxial_experiment.csv").find("20.0,60.0,300.0"),
+            std::string::npos);
+  EXPECT_NE(content(folder.path() / "mass/tables/envelopes_experiment.csv").find("\"intact, regression\",✓,100.0"),
+            std::string::npos)
+    << content(folder.path() / "mass/tables/envelopes_experiment.csv");
+}
+
 TEST_F(Report, SetsAMeasuredCurveBesideTheModel)
 {
   folder.write("core.csv",

@@ -248,6 +248,71 @@ TEST(JointSets, HaveTheSpacingThePersistenceAndTheSeedOfTheirEntry)
   EXPECT_NEAR(double(traces(set, size).size()), breadth / 0.02, 1.0);
 }
 
+TEST(JointMap, IsCutAtTheSidesOfTheBody)
+{
+  const auto of_map = [](std::vector<Vector<2>> points) { return ClosedFlaw{std::move(points), std::nullopt, "0"}; };
+  const Vector<2> size(0.012, 0.020);
+  // Out through the right side and back in, at 45 degrees: two parts, each with its end on the side.
+  const ClosedFlaw zigzag = of_map({{0.010, 0.004}, {0.014, 0.008}, {0.008, 0.014}, {0.008, 0.016}});
+  const auto parts = parts_inside(zigzag, size);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_LT((parts[0].points.at(1) - Vector<2>(0.012, 0.006)).norm(), 1e-12);
+  ASSERT_EQ(parts[1].points.size(), 3u);
+  EXPECT_LT((parts[1].points[0] - Vector<2>(0.012, 0.010)).norm(), 1e-12);
+  EXPECT_EQ(parts[1].points[2], zigzag.points[3]);
+  EXPECT_EQ(parts_inside(of_map({{0.001, 0.001}, {0.002, 0.009}}), size)[0].points.size(), 2u);
+  EXPECT_TRUE(parts_inside(of_map({{0.013, 0.0}, {0.013, 0.02}}), size).empty());
+
+  // The joints that it crosses are those of the same line drawn up to the sides; one outside has no effect.
+  const auto whole = with({line(0.0, 0.010, 0.012, 0.010)});
+  const auto mapped = with({of_map({{-0.1, 0.010}, {0.1, 0.010}}), of_map({{0.1, 0.1}, {0.2, 0.2}})});
+  EXPECT_EQ(mapped.joints.bonded, whole.joints.bonded);
+  EXPECT_EQ(mapped.flaws.size(), 1u);
+  EXPECT_NE(refusal({of_map({{0.1, 0.1}, {0.2, 0.2}})}).find("no trace of the map lies in the specimen"),
+            std::string::npos);
+  // The shapes of an input are refused outside, as before.
+  EXPECT_NE(refusal({line(-0.1, 0.010, 0.1, 0.010)}).find("lies outside of the specimen"), std::string::npos);
+}
+
+TEST(DiscSets, HaveFishersDistributionAboutTheirMean)
+{
+  const Vector<3> mean = Vector<3>(1.0, 2.0, 2.0) / 3.0;
+  for (const double concentration : {0.5, 20.0})
+    {
+      DiscSet set{mean, concentration, 0.002, 4000, 3};
+      const auto flaws = discs(set, {0.01, 0.02, 0.03});
+      ASSERT_EQ(flaws.size(), 4000u);
+      Vector<3> sum = Vector<3>::Zero();
+      Vector<3> centre = Vector<3>::Zero();
+      for (const DiscFlaw& flaw : flaws)
+        {
+          EXPECT_NEAR(flaw.normal.norm(), 1.0, 1e-12);
+          sum += flaw.normal / 4000.0;
+          centre += flaw.centre / 4000.0;
+        }
+      // The mean of the cosine to the mean normal is coth κ - 1/κ, its variance at most 1/3 and here 1/κ² for a large κ; across
+      // it the mean is 0. Four standard errors each.
+      const double cosine = 1.0 / std::tanh(concentration) - 1.0 / concentration;
+      EXPECT_NEAR(sum.dot(mean), cosine, 4.0 * std::min(1.0 / std::sqrt(3.0), 1.0 / concentration) / std::sqrt(4000.0));
+      EXPECT_LT((sum - sum.dot(mean) * mean).norm(), 4.0 * std::sqrt(2.0 / 3.0 / 4000.0));
+      EXPECT_LT((centre - Vector<3>(0.005, 0.01, 0.015)).norm(),
+                4.0 * 0.03 / std::sqrt(12.0 * 4000.0) * std::sqrt(3.0));
+      set.seed = 4;
+      EXPECT_NE(discs(set, {0.01, 0.02, 0.03})[0].centre, flaws[0].centre);
+    }
+
+  // Each disc of a set, which may reach out of the body, unbonds what a disc flaw of its own does.
+  const DiscSet set{mean, 20.0, 0.003, 5, 1};
+  Specimen<3> specimen = small_cylinder();
+  const Specimen<3> intact = specimen;
+  put_in_flaws<3>(specimen, {set});
+  ASSERT_EQ(specimen.flaws.size(), 5u);
+  EXPECT_EQ(specimen.flaws[0].name, "disc set");
+  EXPECT_LT(std::count(specimen.joints.bonded.begin(), specimen.joints.bonded.end(), 1.0),
+            std::count(intact.joints.bonded.begin(), intact.joints.bonded.end(), 1.0));
+  EXPECT_NE(refusal({set}).find("lies in space"), std::string::npos);
+}
+
 TEST(Flaws, ComeBackFromASpecimenFile)
 {
   const auto file = std::filesystem::temp_directory_path() / "flaws_test.h5";

@@ -1,8 +1,10 @@
 #include "base/input_error.h"
 #include "base/random.h"
+#include "dem/genesis/grain_sizes.h"
 #include "dem/genesis/packing_export.h"
 #include "dem/genesis/packing_file.h"
 #include "dem/genesis/packing_table.h"
+#include "dem/laws/draw_bond.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/neighbours.h"
 #include "tests/unit/small_specimen.h"
@@ -12,6 +14,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
+#include <tuple>
 
 namespace feldspar
 {
@@ -109,6 +113,119 @@ TEST(Genesis, StrengthsHaveTheirMeanAndDeviation)
     for (unsigned int i = 1; i < 4; ++i)
       EXPECT_EQ(per_contact.joints.cohesion[per_contact.joints.segment(i, j)],
                 per_contact.joints.cohesion[per_contact.joints.segment(0, j)]);
+}
+
+// A share of 1 - 1/e of a Weibull distribution lies below its scale, whatever its modulus.
+TEST(Genesis, WeibullStrengthsHaveTheirMeanDeviationAndModulus)
+{
+  // Standard deviation over mean of moduli 1 (exponential: 1), 2 (Rayleigh: sqrt(4/π - 1)) and 10 (by its Γ functions).
+  EXPECT_NEAR(weibull_modulus(1.0), 1.0, 1e-9);
+  EXPECT_NEAR(weibull_modulus(std::sqrt(4.0 / std::numbers::pi - 1.0)), 2.0, 1e-9);
+  EXPECT_NEAR(weibull_modulus(0.1203102189311583), 10.0, 1e-9);
+  EXPECT_NEAR(weibull_modulus(0.9e-3) * 0.9e-3, weibull_modulus(1.1e-3) * 1.1e-3, 1e-3); // across the limit
+
+  constexpr double deviation = 0.1203102189311583 * 22e6;
+  const double scale = 22e6 / std::tgamma(1.1);
+  constexpr int n = 40000;
+  Random random(3, RandomStream::strengths);
+  double sum = 0.0, squares = 0.0;
+  int n_below = 0;
+  for (int k = 0; k < n; ++k)
+    {
+      const double strength = draw_strength(StrengthDistribution::weibull, 22e6, deviation, random);
+      sum += strength;
+      squares += (strength - 22e6) * (strength - 22e6);
+      n_below += strength < scale;
+    }
+  // Four standard errors; the kurtosis is near that of the normal distribution.
+  EXPECT_NEAR(sum / n, 22e6, 4.0 * deviation / std::sqrt(n));
+  EXPECT_NEAR(std::sqrt(squares / n), deviation, 4.0 * deviation / std::sqrt(2.0 * n));
+  EXPECT_NEAR(double(n_below) / n, 1.0 - std::exp(-1.0), 4.0 * 0.482 / std::sqrt(n));
+
+  FlatJointParameters flat_joint;
+  flat_joint.strength_distribution = StrengthDistribution::weibull;
+  const auto weibull = small_specimen(1, 1.0, flat_joint);
+  EXPECT_NE(weibull.joints.tensile_strength, small_specimen().joints.tensile_strength);
+}
+
+TEST(Genesis, RadiiHaveTheDistributionThatIsWanted)
+{
+  SpecimenParameters wanted;
+  wanted.minimum_radius = 1e-3;
+  wanted.radius_ratio = 4.0;
+  // The middle of the normal ones is the mean, of the radius (2.5 mm) or of its logarithm (2 mm); the deviation is a sixth of the
+  // way, less what the bounds at three of them cut off, 1.3 %.
+  for (const auto& [distribution, mean, deviation] :
+       {std::tuple(SizeDistribution::uniform, 2.5e-3, 3e-3 / std::sqrt(12.0)),
+        {SizeDistribution::normal, 2.5e-3, 0.9867 * 0.5e-3},
+        {SizeDistribution::log_normal, std::log(2e-3), 0.9867 * std::log(4.0) / 6.0}})
+    {
+      wanted.size_distribution = distribution;
+      constexpr double solid = 0.4; // [m²]
+      const auto radii = draw_radii<2>(wanted, solid, 1.0, 1);
+      const auto n = double(radii.size());
+      // Four standard errors of the mean area of n grains, whose deviation is at most its mean.
+      EXPECT_NEAR(n, expected_number(wanted, solid), 4.0 * std::sqrt(n));
+      double sum = 0.0, squares = 0.0;
+      for (const double radius : radii)
+        {
+          const double value = distribution == SizeDistribution::log_normal ? std::log(radius) : radius;
+          sum += value;
+          squares += (value - mean) * (value - mean);
+          EXPECT_TRUE(radius >= 1e-3 && radius <= 4e-3);
+        }
+      EXPECT_NEAR(sum / n, mean, 4.0 * deviation / std::sqrt(n));
+      EXPECT_NEAR(std::sqrt(squares / n), deviation, 4.0 * deviation / std::sqrt(2.0 * n));
+    }
+}
+
+TEST(Genesis, ASieveCurveComesOutAsItWentIn)
+{
+  SpecimenParameters wanted;
+  wanted.shape = BodyShape::periodic;
+  wanted.width = 0.06;
+  wanted.height = 0.06;
+  wanted.sieve_curve = {{0.8e-3, 0.0}, {1.2e-3, 0.3}, {1.6e-3, 0.5}, {2.4e-3, 1.0}};
+  const auto packed = make_specimen<2>(wanted, FlatJointParameters{}, {}, 1);
+  // Walls and stress scale all sizes by one factor, which the report names.
+  const double factor = packed.report.radius_multiplier;
+  EXPECT_NEAR(factor, 1.0, 0.01);
+  // Poisson statistics: the deviation of the number of each class is at most its root, that of all the root of all.
+  const auto n = double(packed.grains.size());
+  EXPECT_NEAR(n, expected_number(wanted, (1.0 - wanted.porosity) * 36e-4), 4.0 * std::sqrt(n));
+  double solid = 0.0;
+  for (const double radius : packed.grains.radius)
+    solid += radius * radius;
+  for (std::size_t k = 1; k < wanted.sieve_curve.size(); ++k)
+    {
+      const auto& [size, passing] = wanted.sieve_curve[k];
+      double retained = 0.0;
+      double mean_logarithm = 0.0;
+      for (const double radius : packed.grains.radius)
+        if (radius / factor > 0.5 * wanted.sieve_curve[k - 1].size && radius / factor <= 0.5 * size * (1.0 + 1e-12))
+          {
+            retained += radius * radius / solid;
+            mean_logarithm += radius * radius / solid * std::log(2.0 * radius / factor);
+          }
+      const double wanted_share = passing - wanted.sieve_curve[k - 1].passing;
+      // Half of the largest grain of a class is 0.5 % of the smallest class here.
+      EXPECT_NEAR(retained, wanted_share, 0.01 * wanted_share) << size;
+      // The mass lies evenly over the logarithm: its mean is half-way, to four standard errors of some 300 grains or more.
+      const double log_width = std::log(size / wanted.sieve_curve[k - 1].size);
+      EXPECT_NEAR(mean_logarithm / retained, std::log(size) - 0.5 * log_width,
+                  4.0 * log_width / std::sqrt(12.0 * 300.0))
+        << size;
+    }
+
+  // Spheres: the number falls with the third power of the size.
+  wanted.dimension = 3;
+  const double volume = 1e-5;
+  const auto radii = draw_radii<3>(wanted, volume, 1.0, 2);
+  EXPECT_NEAR(double(radii.size()), expected_number(wanted, volume), 4.0 * std::sqrt(double(radii.size())));
+  double below = 0.0;
+  for (const double radius : radii)
+    below += radius <= 0.6e-3 ? 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3) : 0.0;
+  EXPECT_NEAR(below, 0.3 * volume, 0.01 * 0.3 * volume);
 }
 
 TEST(Genesis, DrawsGappedAndSlitJointsByLot)

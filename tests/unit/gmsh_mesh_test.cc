@@ -206,6 +206,45 @@ TEST(GmshMesh, TakesEveryFormatThatTheReaderKnows)
   EXPECT_EQ(complaint(cube, 3), "");
 }
 
+// The surface of a layer within the mesh, here between both squares, is no part of the boundary.
+TEST(GmshMesh, LeavesOutLinesBetweenTwoCells)
+{
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write(
+    "mesh.msh", with(with(squares_2_2, "7 3 3 6\n", "7 3 3 6\n6 1 2 9 4 2 5\n"), "$Elements\n5", "$Elements\n6"));
+  EXPECT_EQ(read_gmsh_mesh(file, 2).sides.size(), 3u);
+  EXPECT_EQ(read_gmsh<2>(MPI_COMM_WORLD, file, 0).triangulation->n_global_active_cells(), 2u);
+}
+
+// Group 1 has two lines below, group 7 one on the right; group 9 has no name.
+TEST(GmshMesh, GivesGroupsTheNamesThatTheUserMaps)
+{
+  const tests::TemporaryFolder folder;
+  const auto length_of = [&](const std::string& name, const BoundaryNames& names) {
+    const auto file = folder.write(
+      "mesh.msh", with(with(squares_2_2, "7 3 3 6\n", "7 3 3 6\n6 1 2 9 4 5 6\n"), "$Elements\n5", "$Elements\n6"));
+    const auto mesh = read_gmsh<2>(MPI_COMM_WORLD, file, 0, 1.0, names);
+    double length = 0.0;
+    for (const auto& cell : mesh.triangulation->active_cell_iterators())
+      for (const auto& face : cell->face_iterators())
+        if (face->at_boundary() && face->boundary_id() == mesh.boundary(name))
+          length += face->measure();
+    return length;
+  };
+  EXPECT_EQ(length_of("top", {{"top", {"9"}}}), 1.0);
+  EXPECT_EQ(length_of("side", {{"side", {"bottom", "right", "9"}}}), 4.0);
+  EXPECT_EQ(length_of("bottom", {{"bottom", {"right"}}, {"right", {"bottom"}}}), 1.0); // exchanged
+  try
+    {
+      length_of("top", {{"top", {"roof"}}});
+      FAIL();
+    }
+  catch (const MeshError& error)
+    {
+      EXPECT_STREQ(error.what(), "no boundary is named roof; the mesh has 9, bottom, right");
+    }
+}
+
 TEST(GmshMesh, TakesBinaryFiles)
 {
   const tests::TemporaryFolder folder;
@@ -281,7 +320,8 @@ TEST(GmshMesh, NamesTheReason)
   EXPECT_EQ(complaint(with(mesh, "1 2 5 4", "1 2 9 4")), "is damaged; Gmsh says: Wrong node index 9");
   EXPECT_EQ(complaint(with(mesh, "1 2 5 4", "1 2 2 4")), "element 4 has one node twice");
   EXPECT_EQ(complaint(cube), "elements of Gmsh's type 5; points, lines and quadrilaterals can be read");
-  EXPECT_EQ(complaint(with(mesh, "7 3 3 6", "7 3 3 5")), "the element on the nodes 3 and 5 is not the side of a cell");
+  EXPECT_EQ(complaint(with(mesh, "7 3 3 6", "7 3 3 5")),
+            "element 3 on the nodes 3 and 5, of the group right, is not the side of a cell");
   EXPECT_EQ(complaint(with(mesh, "3 1 2 7 3", "3 1 2 7 1")),
             "curve 1 is in the physical groups 1 and 7; a part of the boundary has one");
   EXPECT_EQ(complaint(with(mesh, "5 3 2 5 1 2 3 6 5\n", "")), unreadable);
@@ -289,7 +329,7 @@ TEST(GmshMesh, NamesTheReason)
     complaint(with(with(mesh, "$Elements\n5", "$Elements\n6"), "$EndElements", "6 3 2 5 1 2 3 6 5\n$EndElements")),
     "more than two cells meet at the nodes 2 and 5, or they do not fit together");
   EXPECT_EQ(complaint(with(cube, "4 3 2 1", "4 2 3 1"), 3),
-            "the element on the nodes 1 and 3 is not the side of a cell");
+            "element 1 on the nodes 1 and 3, of the group bottom, is not the side of a cell");
 }
 
 // deal.II gets the meshes that pass the check: it may refuse one, but neither crash nor hang.

@@ -22,6 +22,7 @@
 #include <array>
 #include <clocale>
 #include <cstdlib>
+#include <map>
 #include <numbers>
 #include <random>
 #include <string>
@@ -42,6 +43,8 @@ subsection Specimen
   set Height = 108 mm
   set Minimum radius = 0.3 mm      # a comment
   set Radius ratio = 2
+  set Size distribution = log-normal
+  set Sieve curve = none           # excludes the radii above
   set Porosity = 0.15
   set Density = 2.65 g/cm^3
   set Packing stress ratio = 4e-4
@@ -69,6 +72,7 @@ SUBSECTION Flat joint
   set Bond cohesion = 300 MPa
   set Bond cohesion standard deviation = 30 MPa
   set Bond friction angle = 15 deg
+  set Strength distribution = Weibull
   set Strength draw = per contact
   set Installation gap ratio = 0.05
   set Coordination number = none
@@ -96,6 +100,10 @@ end
 subsection Flaws
   set Shapes = hole centre 20, 50 mm radius 5 mm | joint set angle 30 deg spacing 10 mm
   set Traces file = traces.csv
+  set Traces origin = 1, 2 mm
+  set Traces angle = 10 deg
+  set Traces scale = 0.5
+  set Smooth layers = none
 end
 subsection Dynamics
   set Damping = 0
@@ -173,6 +181,7 @@ subsection Sample
   set Material = Mohr-Coulomb
   set Mesh file = sample.msh
   set Mesh unit = mm
+  set Mesh names = top = roof; bottom = base 1, base 2
   set Width = 40 mm
   set Height = 80 mm
   set Geometry = cylinder
@@ -331,6 +340,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.specimen.height, 0.108);
   EXPECT_DOUBLE_EQ(input.specimen.minimum_radius, 3e-4);
   EXPECT_EQ(input.specimen.radius_ratio, 2.0);
+  EXPECT_EQ(input.specimen.size_distribution, SizeDistribution::log_normal);
   EXPECT_EQ(input.specimen.porosity, 0.15);
   EXPECT_DOUBLE_EQ(input.specimen.bulk_density, 2650.0);
   EXPECT_EQ(input.specimen.packing_stress_ratio, 4e-4);
@@ -352,6 +362,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.flat_joint.bond_cohesion, 300e6);
   EXPECT_EQ(input.flat_joint.bond_cohesion_deviation, 30e6);
   EXPECT_DOUBLE_EQ(input.flat_joint.bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(input.flat_joint.strength_distribution, StrengthDistribution::weibull);
   EXPECT_EQ(input.flat_joint.strength_draw, StrengthDraw::per_contact);
   EXPECT_EQ(input.flat_joint.installation_gap_ratio, 0.05);
   EXPECT_EQ(input.flat_joint.coordination_number, std::nullopt);
@@ -383,6 +394,9 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.flaws.traces_file, (folder.path() / "traces.csv").string());
   ASSERT_EQ(input.flaws.traces.size(), 1u);
   EXPECT_EQ(std::get<ClosedFlaw>(input.flaws.traces[0]).points[1], Vector<2>(0.03, 0.04));
+  EXPECT_EQ(input.flaws.map.origin, Vector<2>(0.001, 0.002));
+  EXPECT_DOUBLE_EQ(input.flaws.map.angle, std::numbers::pi / 18.0);
+  EXPECT_EQ(input.flaws.map.scale, 0.5);
 
   EXPECT_EQ(input.tests.of<BendingParameters>().strain_rate, 0.2);
   EXPECT_EQ(input.tests.of<BendingParameters>().sampling_strain, 4e-6);
@@ -436,6 +450,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.sample.material, "Mohr-Coulomb");
   EXPECT_EQ(input.sample.mesh_file, (folder.path() / "sample.msh").string());
   EXPECT_EQ(input.sample.mesh_unit, MeshUnit::millimetre);
+  EXPECT_EQ(input.sample.mesh_names,
+            (std::map<std::string, std::vector<std::string>>{{"bottom", {"base 1", "base 2"}}, {"top", {"roof"}}}));
   EXPECT_DOUBLE_EQ(input.sample.width, 0.040);
   EXPECT_DOUBLE_EQ(input.sample.height, 0.080);
   EXPECT_EQ(input.sample.elements_across, 3u);
@@ -500,6 +516,34 @@ TEST(Input, CoresAreRefusedWhereTheyCannotBe)
   // Cells of 50 mm / 20, with grains up to 1.03 mm: less than four radii.
   EXPECT_NE(refused(core + "  set Cells across = 20\n").find("must be at least"), std::string::npos);
   EXPECT_EQ(refused(core + "  set Cells across = 10\n"), "");
+}
+
+TEST(Input, TakesASieveCurveForTheGrains)
+{
+  const TemporaryFolder folder;
+  const std::string curve = "  set Sieve curve = 800 um 0 %; 1.2 mm 40 %; 2 mm 100%\n";
+  const Input input = read_input(folder.write("a.prm", "subsection Specimen\n" + curve + "end\n"));
+  const SpecimenParameters& specimen = input.specimen;
+  ASSERT_EQ(specimen.sieve_curve.size(), 3u);
+  EXPECT_DOUBLE_EQ(specimen.sieve_curve[0].size, 0.8e-3);
+  EXPECT_EQ(specimen.sieve_curve[1].passing, 0.4);
+  EXPECT_EQ(specimen.largest_radius(), 1e-3);
+  EXPECT_EQ(find_parameter("Specimen/Sieve curve")->write(input), "0.8 mm 0 %; 1.2 mm 40 %; 2 mm 100 %");
+  const auto refused = [](const std::string& entries, const std::string& words) {
+    const std::string error = error_of("a.prm", "subsection Specimen\n" + entries + "end\n");
+    EXPECT_NE(error.find(words), std::string::npos) << error;
+  };
+  refused(curve + "  set Minimum radius = 1 mm\n", "leave out Minimum radius, Radius ratio and Size distribution");
+  refused("  set Sieve curve = 1 mm 0 %; 2 mm\n", "\"2 mm\" is no point of a sieve curve; write size and share");
+  refused("  set Sieve curve = 1 mm 0 %; 2 mm 60 %\n", "must begin with 0 %");
+  refused("  set Sieve curve = 1 mm 0 %; 2 mm 60 %; 1.5 mm 100 %\n", "sizes must be above 0 and increase");
+  refused("  set Sieve curve = 1 mm 0 %; 101 mm 100 %\n", "at most 100 times the smallest");
+  refused("  set Sieve curve = 8 mm 0 %; 16 mm 100 %\n  set Width = 30 mm\n", "must be at least 32 mm");
+  EXPECT_NE(
+    error_of("a.prm",
+             "subsection Flat joint\n  set Strength distribution = Weibull\n  set Bond cohesion = 10 MPa\nend\n")
+      .find("a standard deviation must be at most 3 times its mean"),
+    std::string::npos);
 }
 
 TEST(Input, GrainsComeToRestByDescentUnlessMotionIsAskedFor)
@@ -584,6 +628,7 @@ subsection Parallel bond
   set Cohesion = 300 MPa
   set Cohesion standard deviation = 30 MPa
   set Friction angle = 15 deg
+  set Strength distribution = Weibull
   set Installation gap ratio = 0.07
   set Coordination number = none
   set Gapped fraction = 0.1
@@ -603,6 +648,7 @@ end
   EXPECT_EQ(input.parallel_bond.bond_tensile_strength_deviation, 2e6);
   EXPECT_EQ(input.parallel_bond.bond_cohesion, 300e6);
   EXPECT_EQ(input.parallel_bond.bond_cohesion_deviation, 30e6);
+  EXPECT_EQ(input.parallel_bond.strength_distribution, StrengthDistribution::weibull);
   EXPECT_DOUBLE_EQ(input.parallel_bond.bond_friction_angle, std::numbers::pi / 12.0);
   EXPECT_EQ(input.parallel_bond.installation_gap_ratio, 0.07);
   EXPECT_EQ(input.parallel_bond.coordination_number, std::nullopt);
@@ -796,6 +842,7 @@ subsection Softening flat joint
   set Bond cohesion = 300 MPa
   set Bond cohesion standard deviation = 30 MPa
   set Bond friction angle = 15 deg
+  set Strength distribution = Weibull
   set Strength draw = per contact
   set Installation gap ratio = 0.07
   set Coordination number = none
@@ -824,6 +871,7 @@ end
   EXPECT_EQ(read.bond_cohesion, 300e6);
   EXPECT_EQ(read.bond_cohesion_deviation, 30e6);
   EXPECT_DOUBLE_EQ(read.bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(read.strength_distribution, StrengthDistribution::weibull);
   EXPECT_EQ(read.strength_draw, StrengthDraw::per_contact);
   EXPECT_EQ(read.installation_gap_ratio, 0.07);
   EXPECT_EQ(read.coordination_number, std::nullopt);
@@ -1380,6 +1428,48 @@ TEST(Input, ClumpsAreTestedByWhatSaysThatItTakesThem)
           EXPECT_NE(std::string(error.what()).find("takes no clumps; take it out"), std::string::npos) << error.what();
         }
   EXPECT_EQ(n_taken, 3u);
+}
+
+TEST(Input, PlacesAJointMapAndReadsItsLayers)
+{
+  const TemporaryFolder folder;
+  folder.write("map.csv",
+               "layer,from_x_m,from_y_m,to_x_m,to_y_m\nBedding,12,8,13,8\nfaults,12,8,12,9\nfaults,100,100,101,101\n");
+  const std::string map =
+    "  set Traces file = map.csv\n  set Traces origin = 11000, 8000 mm\n  set Traces angle = 90 deg\n"
+    "  set Traces scale = 0.01\n";
+  const auto read = [&](const std::string& entries) {
+    return read_input(folder.write("a.prm", "subsection Flaws\n" + entries + "end\n"));
+  };
+  const auto input = read(map + "  set Smooth layers = bedding: smooth friction 0.4 | Faults: smooth cohesion 1 MPa\n");
+  const auto shapes = input.flaws.all();
+  ASSERT_EQ(shapes.size(), 3u);
+  // One metre to the right of the origin, turned upwards, a hundredth as long.
+  const auto& bedding = std::get<ClosedFlaw>(shapes[0]);
+  EXPECT_LT((bedding.points[0] - Vector<2>(0.0, 0.01)).norm(), 1e-15);
+  EXPECT_LT((bedding.points[1] - Vector<2>(0.0, 0.02)).norm(), 1e-15);
+  EXPECT_EQ(bedding.smooth->friction, 0.4);
+  EXPECT_EQ(std::get<ClosedFlaw>(shapes[1]).smooth->cohesion, 1e6);
+  EXPECT_NE(input.flaws.left_out.find("of 3 traces"), std::string::npos) << input.flaws.left_out;
+
+  const auto refused = [&](const std::string& entries, const std::string& words) {
+    try
+      {
+        read(entries);
+        ADD_FAILURE() << words;
+      }
+    catch (const InputError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      }
+  };
+  refused(map + "  set Smooth layers = veins: smooth\n", "no trace of the map is on a layer \"veins\"");
+  refused(map + "  set Smooth layers = bedding: friction 0.4\n", "friction is of smooth sides; say smooth before it");
+  refused(map + "  set Smooth layers = bedding smooth\n", "is no layer with smooth sides; write LAYER: smooth");
+  refused("  set Traces scale = 2\n", "is of a joint map; give Traces file too");
+  refused("  set Traces file = map.csv\n", "no trace of the map lies in the specimen");
+  folder.write("map.csv", "colour,from_x_m,from_y_m,to_x_m,to_y_m\nred,0,0,1,1\n");
+  refused("  set Traces file = map.csv\n", "map.csv:1: \"colour\" is no column of a joint map");
 }
 
 TEST(Input, ATraceFileThatIsWrongIsNamedWithItsLine)

@@ -195,12 +195,48 @@ TEST(LabResults, SayWhyWhenACurveNeverPeaks)
   EXPECT_FALSE(results.peak_stress.value);
   EXPECT_EQ(results.peak_stress.reason,
             "the stress never peaked: it was still rising when the test ended; the highest was 44.77 MPa");
-  EXPECT_EQ(results.youngs_modulus_initial.reason, results.peak_stress.reason);
+  for (const Figure& of_peak : {results.youngs_modulus_tangent, results.youngs_modulus_secant,
+                                results.poissons_ratio_secant, results.crack_initiation_stress})
+    EXPECT_EQ(of_peak.reason, results.peak_stress.reason);
   // A specimen that came apart beyond its last row was strongest there.
   record.came_apart = true;
   EXPECT_EQ(evaluate(record).peak_stress.value, -record.curve.back().axial_stress);
   record.interrupted = true;
   EXPECT_EQ(evaluate(record).peak_stress.reason, "interrupted before its end");
+}
+
+TEST(LabResults, OfATestBeforeItsPeakHaveTheElasticConstantsBeforeTheFirstCrack)
+{
+  // The first row at or above 20 % of the peak: the rows between a quarter of its stress and itself are those of 5-20 %.
+  auto record = known_compression();
+  const auto at_20_percent = std::find_if(record.curve.begin(), record.curve.end(),
+                                          [](const CurveSample& row) { return row.axial_stress <= -20e6; });
+  for (auto row = record.curve.begin(); row != record.curve.end(); ++row) // a curve that is not straight
+    row->gauge_axial_strain *= 1.0 + 100.0 * std::abs(row->gauge_axial_strain);
+  const auto whole = evaluate(record);
+  auto stopped = record;
+  stopped.curve.resize(std::size_t(at_20_percent - record.curve.begin()) + 1);
+  const auto part = evaluate(stopped);
+  ASSERT_TRUE(part.youngs_modulus_initial.value) << part.youngs_modulus_initial.reason;
+  EXPECT_FALSE(part.peak_stress.value);
+  // A row at either end may differ, of some 33: the stiffness falls by 200 times the strain of 3e-4 over the range.
+  EXPECT_NEAR(*part.youngs_modulus_initial.value, *whole.youngs_modulus_initial.value, 2e-3 * 70e9);
+  EXPECT_NEAR(*part.poissons_ratio_initial.value, *whole.poissons_ratio_initial.value, 2e-3 * 0.2);
+
+  // Rows beyond the first crack, at 42 MPa, change nothing.
+  record = known_compression();
+  record.curve.resize(200);
+  EXPECT_NEAR(*evaluate(record).youngs_modulus_initial.value, 70e9, 1e-6 * 70e9);
+  for (std::size_t k = 190; k < 200; ++k)
+    record.curve[k].gauge_axial_strain *= 2.0;
+  EXPECT_NEAR(*evaluate(record).youngs_modulus_initial.value, 70e9, 1e-6 * 70e9);
+  // A body that cracks under stresses which waves bring about too has no elastic part.
+  record.peak_demands.least_stress = 43e6;
+  EXPECT_NE(
+    evaluate(record).poissons_ratio_initial.reason.find("; too little of the curve lies before the first crack"),
+    std::string::npos);
+  record.interrupted = true;
+  EXPECT_NE(evaluate(record).youngs_modulus_initial.reason.find("interrupted"), std::string::npos);
 }
 
 TEST(LabResults, SayWhenTheCurveIsTooCoarseForAModulus)

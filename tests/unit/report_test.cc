@@ -2007,6 +2007,30 @@ TEST(Reference, TakesWhatLaboratoriesHave)
   EXPECT_EQ(*rock.fitted.data.tensile_strength, 9.5e6);
 }
 
+TEST(Reference, TakesTestsByTheirPrincipalStresses)
+{
+  const TemporaryFolder folder;
+  const auto rock = read_reference(folder.write("rock.json", R"({"experiment": {
+    "brazilian_strength_MPa": 8, "tensile_strength_MPa": null, "rock_mass": {"GSI": 60, "D": 0.5},
+    "triaxial": [{"sigma_1_MPa": 100, "sigma_3_MPa": 0}, {"sigma_1_MPa": 200, "sigma_2_MPa": 10, "sigma_3_MPa": 10},
+                 {"sigma_1_MPa": 230, "sigma_2_MPa": 60, "sigma_3_MPa": 10},
+                 {"sigma_1_MPa": 250, "sigma_2_MPa": 60, "sigma_3_MPa": 10},
+                 {"sigma_1_MPa": 60, "sigma_2_MPa": 60, "sigma_3_MPa": -4}]}})"),
+                                   test_kinds())
+                      .experiment;
+  // The extension test is a point; strengths under three different stresses are none, and are compared with such tests.
+  ASSERT_EQ(rock.fitted.data.points.size(), 3u);
+  EXPECT_EQ(rock.fitted.data.points[1].sigma_3, -4e6);
+  EXPECT_EQ(rock.true_triaxial.size(), 2u);
+  EXPECT_EQ(*rock.find("triaxial_compression_10_MPa_intermediate_60_MPa_strength_MPa")->mean, 240.0);
+  EXPECT_EQ(*rock.find("strength_at_10_MPa")->mean, 200.0);
+  ASSERT_TRUE(rock.fitted.regressed.fit);
+  EXPECT_TRUE(rock.fitted.data.tension_is_indirect);
+  EXPECT_NE(remark(rock.fitted).find("that of Brazilian tests, for want of direct ones"), std::string::npos);
+  EXPECT_EQ(rock.rock_mass->strength_index, 60.0);
+  EXPECT_EQ(rock.rock_mass->disturbance, 0.5);
+}
+
 TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
 {
   const TemporaryFolder folder;
@@ -2052,6 +2076,11 @@ TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
   expect(of_experiment(R"("hoek_brown": {"m": 20})"), "experiment/hoek_brown: sigma_ci_MPa is missing");
   expect(of_experiment(R"("triaxial": [{"confining_pressure_MPa": 300, "strength_MPa": 40}])"),
          "experiment/triaxial/1: strength_MPa is sigma_1, which lies above");
+  expect(of_experiment(R"("triaxial": [{"sigma_1_MPa": 100, "sigma_2_MPa": 5, "sigma_3_MPa": 10}])"),
+         "experiment/triaxial/1: sigma_1 must be the largest and sigma_3 the least");
+  expect(of_experiment(R"("triaxial": [{"sigma_1_MPa": 100}])"), "experiment/triaxial/1: sigma_3_MPa is missing");
+  expect(of_experiment(R"("rock_mass": {"GSI": 120})"), "experiment/rock_mass/GSI: 120 is no GSI");
+  expect(of_experiment(R"("tensil_strength_MPa": null)"), "experiment/tensil_strength_MPa: no such property");
 
   // Each point is fitted many times: 6 000 took 12 s, and 60 000 would take twenty minutes.
   std::string tests, strengths;

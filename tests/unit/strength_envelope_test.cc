@@ -205,6 +205,71 @@ TEST(IndependentProgram, HasNoBetterEnvelopeNearby)
     }
 }
 
+TEST(HoekBrown, HoeksRegressionIsThatOfItsSums)
+{
+  // Hoek and Brown (1980), with x = σ_3 and y = (σ_1 - σ_3)²:
+  // σ_ci² = Σy/n - N Σx/n and m = N/σ_ci, N = (Σxy - Σx Σy/n)/(Σx² - (Σx)²/n).
+  const auto data = independent_program(9.5 * MPa);
+  double x = 0.0, y = 0.0, xy = 0.0, xx = 0.0;
+  for (const auto& [sigma_3, sigma_1] : data.points)
+    {
+      const double square = std::pow((sigma_1 - sigma_3) / MPa, 2);
+      x += sigma_3 / MPa;
+      y += square;
+      xy += sigma_3 / MPa * square;
+      xx += std::pow(sigma_3 / MPa, 2);
+    }
+  const auto n = double(data.points.size());
+  const double slope = (xy - x * y / n) / (xx - x * x / n);
+  const double sigma_ci = std::sqrt(y / n - slope * x / n);
+  const auto envelopes = fit_strength_envelopes(data);
+  ASSERT_TRUE(envelopes.regressed.fit) << envelopes.regressed.reason;
+  const auto& fit = *envelopes.regressed.fit;
+  EXPECT_NEAR(fit.sigma_ci.value, sigma_ci * MPa, 1e-9 * fit.sigma_ci.value);
+  EXPECT_NEAR(fit.m.value, slope / sigma_ci, 1e-9 * fit.m.value);
+  EXPECT_NEAR(fit.sigma_1(10 * MPa), (10.0 + std::sqrt(slope * 10.0 + sigma_ci * sigma_ci)) * MPa, 1.0);
+  EXPECT_GT(*fit.m.half_width.value, 0.0);
+  // The regression weighs the strong points most: another m than least squares in σ_1, whose squares are the least.
+  const auto least = *fit_hoek_brown(data, HoekBrownForm::intact, false).fit;
+  EXPECT_GT(std::abs(fit.m.value / least.m.value - 1.0), 0.01);
+  EXPECT_GT(fit.quality.root_mean_square, least.quality.root_mean_square);
+  const std::string text = as_text(envelopes);
+  const std::size_t row = text.find("\nintact, regression");
+  ASSERT_NE(row, std::string::npos) << text;
+  EXPECT_NE(
+    text.substr(row + 1, text.find('\n', row + 1) - row).find(fmt::format(" {:.1f} ±", fit.sigma_ci.value / MPa)),
+    std::string::npos)
+    << text;
+
+  // Points of the criterion itself have one m.
+  StrengthData exact;
+  for (const double sigma_3 : {-5.0, 0.0, 10.0, 40.0})
+    exact.points.push_back({sigma_3 * MPa, (sigma_3 + 100.0 * std::sqrt(12.0 * sigma_3 / 100.0 + 1.0)) * MPa});
+  EXPECT_NEAR(regress_hoek_brown(exact).fit->m.value, 12.0, 1e-9);
+  EXPECT_NEAR(fit_hoek_brown(exact, HoekBrownForm::intact, false).fit->m.value, 12.0, 1e-4);
+
+  StrengthData weaker; // under confinement
+  weaker.points = {{0.0, 100 * MPa}, {10 * MPa, 90 * MPa}};
+  EXPECT_NE(regress_hoek_brown(weaker).reason.find("both must be above 0"), std::string::npos);
+}
+
+TEST(HoekBrown, ConstantsOfARockMassAreThoseOfHoekAndOthers)
+{
+  // Hoek, Carranza-Torres and Corkum (2002), the example of a tunnel: m_i = 10, GSI = 45, D = 0 give m_b = 1.4, s = 0.0022 and
+  // a = 0.508; undisturbed intact rock has its own constants.
+  const auto mass = rock_mass_constants(10.0, 45.0, 0.0);
+  EXPECT_NEAR(mass.m, 1.40, 0.005);
+  EXPECT_NEAR(mass.s, 0.0022, 0.00005);
+  EXPECT_NEAR(mass.a, 0.508, 0.0005);
+  const auto intact = rock_mass_constants(10.0, 100.0, 1.0);
+  EXPECT_EQ(intact.m, 10.0);
+  EXPECT_EQ(intact.s, 1.0);
+  EXPECT_NEAR(intact.a, 0.5, 1e-15);
+  // Disturbance halves the scale of m and takes a third off that of s.
+  EXPECT_NEAR(rock_mass_constants(10.0, 45.0, 1.0).m, 10.0 * std::exp(-55.0 / 14.0), 1e-12);
+  EXPECT_NEAR(rock_mass_constants(10.0, 45.0, 1.0).s, std::exp(-55.0 / 6.0), 1e-12);
+}
+
 TEST(HoekBrown, PaperAndGeneralFormAreOneCurve)
 {
   // sigma_ci (m x/sigma_ci + s)^a = sigma_ci' (m' x/sigma_ci' + 1)^a with sigma_ci' = sigma_ci s^a, m' = m s^(a-1).
@@ -298,7 +363,7 @@ TEST_P(RefusedData, GivesASentence)
   // Nothing of it may break what prints or writes all fits.
   const auto envelopes = fit_strength_envelopes(one.data);
   EXPECT_FALSE(as_text(envelopes).empty());
-  EXPECT_EQ(records(envelopes).size(), 7U);
+  EXPECT_EQ(records(envelopes).size(), 8U);
 }
 
 StrengthData changed(void (*change)(StrengthData&))
@@ -457,10 +522,10 @@ TEST(StrengthEnvelopes, RecordsNameEveryFigureOnceAndGiveAReasonForWhatIsMissing
           EXPECT_NE(figure.value.has_value(), !figure.reason.empty()) << record.form << ' ' << name;
         }
     }
-  EXPECT_EQ(fits,
-            (std::set<std::string>{"as_paper/with_tension_point", "as_paper/without_tension_point",
-                                   "intact/with_tension_point", "intact/without_tension_point",
-                                   "general/with_tension_point", "general/without_tension_point", "mohr_coulomb/"}));
+  EXPECT_EQ(fits, (std::set<std::string>{"as_paper/with_tension_point", "as_paper/without_tension_point",
+                                         "intact/with_tension_point", "intact/without_tension_point",
+                                         "general/with_tension_point", "general/without_tension_point",
+                                         "intact_by_regression/", "mohr_coulomb/"}));
 }
 
 TEST(StrengthEnvelopes, RemarkSaysWhyThePapersFormIsNotAdmissible)

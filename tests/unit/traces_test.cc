@@ -148,6 +148,16 @@ TEST(Drawing, ShowsModelSpaceOfLayersThatAreOn)
   EXPECT_EQ(words.left_out, "");
 }
 
+TEST(Drawing, TellsTheLayerOfEachLine)
+{
+  const TemporaryFolder folder;
+  const auto traces = read_traces(
+    folder.write("map.dxf", layered(plain_line + " 0 LWPOLYLINE 8 Faults 90 2 70 0 10 1 20 1 10 5 20 5", "")));
+  ASSERT_EQ(traces.shapes.size(), 2u);
+  EXPECT_EQ(std::get<ClosedFlaw>(traces.shapes[0]).map_layer, "rock");
+  EXPECT_EQ(std::get<ClosedFlaw>(traces.shapes[1]).map_layer, "faults");
+}
+
 TEST(Drawing, SeenFromBelowIsMirrored)
 {
   const TemporaryFolder folder;

@@ -42,6 +42,7 @@ struct Line
 {
   std::string entity;
   std::string where; ///< file and line
+  std::string layer; ///< in small letters
   std::vector<Corner> corners;
   bool closed = false;
 };
@@ -53,7 +54,10 @@ InputError refusal(const Line& line, const std::string& why)
 
 Line line_of(const DxfRecord& entity)
 {
-  return {entity.name, fmt::format("{}:{}", entity.file.string(), entity.line), {}};
+  return {entity.name,
+          fmt::format("{}:{}", entity.file.string(), entity.line),
+          in_small_letters(entity.text(8, "0")),
+          {}};
 }
 
 /// Throws InputError for flags (group 70) that this entity does not have.
@@ -363,7 +367,7 @@ Traces read_drawing(const std::filesystem::path& file)
         add(line.corners.front());
       if (points.size() < 2)
         throw InputError(fmt::format("{}: trace {} ends where it begins", file.string(), traces.shapes.size() + 1));
-      traces.shapes.emplace_back(ClosedFlaw{points});
+      traces.shapes.emplace_back(ClosedFlaw{points, std::nullopt, line.layer});
     }
   return traces;
 }

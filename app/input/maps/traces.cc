@@ -1,10 +1,15 @@
 #include "app/input/maps/traces.h"
 
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "base/table/csv.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
 
 namespace feldspar
 {
@@ -13,13 +18,27 @@ namespace
 Traces read_table(const std::filesystem::path& file)
 {
   Traces traces;
-  for (const auto& row : read_csv(file, header_of_traces))
+  CsvReader table(file);
+  const bool has_layers = table.has("layer");
+  std::array<std::size_t, 4> places;
+  const auto names = split_at_commas(header_of_traces);
+  std::transform(names.begin(), names.end(), places.begin(), [&](const auto name) { return table.place(name); });
+  for (const std::string_view column : table.header())
+    if (!column.empty() && column != "layer" && std::find(names.begin(), names.end(), column) == names.end())
+      throw InputError(fmt::format("{}:{}: {} is no column of a joint map; they are {} and layer", file.string(),
+                                   table.line_of_header(), in_quotes(column), header_of_traces));
+  while (table.next())
     {
-      traces.shapes.emplace_back(ClosedFlaw{{{row[0], row[1]}, {row[2], row[3]}}});
+      std::array<double, 4> row;
+      std::transform(places.begin(), places.end(), row.begin(), [&](const std::size_t c) { return table.number(c); });
+      const std::string layer = has_layers ? in_small_letters(table.text(table.place("layer"))) : "";
+      traces.shapes.emplace_back(ClosedFlaw{{{row[0], row[1]}, {row[2], row[3]}}, std::nullopt, layer});
       check_number_of_traces(traces.shapes.size(), file);
       if (row[0] == row[2] && row[1] == row[3])
-        throw InputError(fmt::format("{}:{}: the trace ends where it begins", file.string(), traces.shapes.size() + 1));
+        throw InputError(fmt::format("{}:{}: the trace ends where it begins", file.string(), table.line_of_row()));
     }
+  if (traces.shapes.empty())
+    throw InputError(fmt::format("{}: there is no trace below the header", file.string()));
   return traces;
 }
 } // namespace

@@ -10,7 +10,7 @@
 /// Joint maps: the traces of joints on a wall or section of the rock, as closed flaws.
 namespace feldspar
 {
-/// The header of a joint map in CSV: a trace a line, y along the axis of the tests [m].
+/// The header of a joint map in CSV: a trace a line, y along the axis of the tests [m]. It may have a column `layer` too.
 inline constexpr std::string_view header_of_traces = "from_x_m,from_y_m,to_x_m,to_y_m";
 
 /// The most corners of a line or an outline. The time grows with the number of corners times that of the joints of a
