@@ -27,7 +27,7 @@ site_packages=(python3-sphinx python3-myst-parser furo libjs-katex)
 test_packages=(
   "${site_packages[@]}"
   clang clang-format clang-tidy python3 libgtest-dev libbenchmark-dev locales chromium slurm-wlm
-  python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing; reads fields/
+  python3-vtk9 # reads fields/ as ParaView does, for a test
   python3-pandas r-base-core # scripts of docs/recipes.md
 )
 

@@ -73,7 +73,7 @@ const std::vector<Room> rooms = {
    {"base", "base/system", "laboratory", "results", "results/runs", "results/fits", "results/folder", "report/chart"}},
   {"report/pictures/maps", {"base", "laboratory", "results", "results/runs", "report/chart", "report/pictures"}},
   {"report/pictures/curves", {"base", "laboratory", "results", "results/runs", "report/chart", "report/pictures"}},
-  {"report/page", {"base", "results", "results/runs", "results/folder", "report/chart", "report/pictures"}},
+  {"report/page", {"base", "base/system", "results", "results/runs", "results/folder", "report/chart", "report/pictures"}},
   {"report/sections",
    {"base", "laboratory", "results", "results/runs", "results/fits", "results/folder", "report/pictures",
     "report/pictures/curves", "report/pictures/maps", "report/page"}},

@@ -1765,7 +1765,43 @@ TEST(SpecimenData, GivesEachCrackTheRowByWhichItIsThere)
 
   FinishedTest without = test;
   without.record.cracks.clear();
+  EXPECT_EQ(data_of(without)["cracks"]["every"], 1);
+  without.appearance.grains_at_end.clear();
   EXPECT_EQ(specimen_data({{&without, "rock"}}), "");
+}
+
+TEST(SpecimenData, NamesTheRowsOfThePictureForPaper)
+{
+  const auto json = data_of(compression(1));
+  ASSERT_EQ(json["stages"].size(), 3u);
+  EXPECT_EQ(json["stages"][0][0], "crack initiation");
+  EXPECT_LT(json["stages"][0][1], 20);
+  EXPECT_EQ(json["stages"][1], nlohmann::json::parse(R"(["peak", 20])"));
+  EXPECT_EQ(json["stages"][2], nlohmann::json::parse(R"(["end", 30])"));
+}
+
+TEST(SpecimenData, MeasuresTheOpeningOfACrackByItsTwoGrains)
+{
+  // Two grains of 1 mm to both sides of a crack, which parts them by 30 µm; a third one far off moves more.
+  FinishedTest test = compression(1);
+  test.appearance.grains_at_end = {{{0.010, 0.0, 0.0}, {0.010, 0.0, 0.0}, 0.001, 0},
+                                   {{0.012, 0.0, 0.0}, {0.01203, 5e-4, 0.0}, 0.001, 0},
+                                   {{0.016, 0.0, 0.0}, {0.017, 0.0, 0.0}, 0.001, 0}};
+  Crack crack{};
+  crack.centroid = {0.011, 2e-4, 0.0};
+  crack.normal = {1.0, 0.0, 0.0};
+  crack.size = 2e-4;
+  Crack turned = crack, sliding = crack, alone = crack;
+  turned.normal = {-1.0, 0.0, 0.0};
+  sliding.normal = {0.0, -1.0, 0.0}; // both grains lie on one line with it: closed
+  alone.centroid = {0.05, 0.0, 0.0};
+  test.record.cracks = {crack, turned, sliding, alone};
+  const auto json = data_of(test)["cracks"];
+  EXPECT_NEAR(json["most_open"], 30.0, 1e-3);
+  const auto open = numbers_in(json["open"], 2);
+  EXPECT_EQ(open[0], 65535u);
+  EXPECT_EQ(open[1], 65535u);
+  EXPECT_EQ(open[3], 0u);
 }
 
 TEST(SpecimenData, OfManyGrainsKeepsSomeSoThatAPageStaysSmall)
