@@ -58,10 +58,11 @@ const specimensView = (figure, data, chart, tools) => {
     relative: false,
   });
   const panes = [];
+  const toneOf = (test, k) => test.colour || testTones[k];
   const anew = () => panes.forEach(pane => pane.draw());
   const tell = text => (reading.textContent = text);
   tests.forEach((test, k) => panes.push(specimenView(
-    row, test, set, {tone: testTones[k], anew, tell, alternative: `${figure.alternative} ${test.title}.`, lose: () => figure.printed()}, tools)));
+    row, test, set, {tone: toneOf(test, k), anew, tell, alternative: `${figure.alternative} ${test.title}.`, lose: () => figure.printed()}, tools)));
   const longest = Math.min(4, Math.max(...panes.map(pane => pane.course.at(-1))));
 
   // The curves, and a mark on each.
@@ -71,11 +72,13 @@ const specimensView = (figure, data, chart, tools) => {
   const drawCurves = () => {
     plot?.destroy();
     plotBox.textContent = "";
-    const lines = tests.map((test, k) => ({kind: "line", label: test.title, goes_with: "", colour: testTones[k], width: 2.2, dashes: 1, points: test.rows.map(one => onCurve(one, k))}));
+    const lines = tests.map((test, k) => ({kind: "line", label: test.title, goes_with: "", colour: toneOf(test, k), width: 2.2, dashes: 1, points: test.rows.map(one => onCurve(one, k))}));
     const marks = tests.map((test, k) => ({...lines[k], kind: "marks", mark: 7, goes_with: test.title, points: []}));
     plot = chart({...figure, stage: plotBox, buttons() {}, hint() {}}, {
       x: set.relative ? "strain over that at the peak" : "strain [10⁻³], positive as the test loads",
       y: set.relative ? "stress over the strength" : "stress [MPa]",
+      // Waves of a body that came apart are not shown.
+      from_zero: tests.every(test => test.rows.every(one => one[1] === null || one[1] >= -0.05 * Math.max(...peaks.map(peak => peak[1])))),
       lines: [...lines, ...marks],
     });
   };

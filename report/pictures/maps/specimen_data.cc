@@ -219,6 +219,7 @@ Json data_of(const TitledTest& one, const std::size_t n)
     size = std::max(size, crack.size);
   return {
     {"title", one.title},
+    {"colour", one.colour},
     {"space", record.dimension() == 3},
     {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
     {"low", {live::number(cube.low[0] / milli), live::number(cube.low[1] / milli), live::number(cube.low[2] / milli)}},

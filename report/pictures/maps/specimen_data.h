@@ -13,6 +13,7 @@ struct TitledTest
 {
   const FinishedTest* test;
   std::string title;
+  std::string colour = {}; ///< of its curve; empty: one of the viewer's own
 };
 
 /// Largest number of tests that the viewer shows side by side.
