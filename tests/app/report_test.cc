@@ -505,6 +505,10 @@ TEST_F(Report, SetsAMeasuredCurveBesideTheModel)
   folder.write("core.csv",
                measured_curve("axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]"));
   holds(remade("report out --curve core.csv --output both"), {"</span>core.csv</h3>"});
+  // The first screen has both curves, above the tiles.
+  const std::string page = content(folder.path() / "both/report.html");
+  EXPECT_LT(page.find("Uniaxial compression: Stress against axial, lateral and volumetric strain"),
+            page.find("<ul class=\"tiles\">"));
   remade("report --curve core.csv --output alone");
   const std::string comparison = content(folder.path() / "alone/tables/comparison.csv");
   const Frame frame = read_comparison(folder.path() / "alone");
