@@ -187,10 +187,6 @@ Page page_of(const Findings& findings, PictureBook& book)
     page.sections.push_back(std::move(sample));
   page.sections.push_back(crack_section(findings, book));
   page.sections.push_back(trust_section(findings));
-  auto overview = findings.one_folder ? overview_picture(findings.all.front()) : std::vector<Picture>();
-  for (Picture& picture : overview)
-    picture.caption = findings.titled(picture.caption, findings.all.front());
-  book.keep_as_files(overview);
   PageSection study = study_section(findings, book);
   const bool is_first = !study.blocks.empty() && !study.blocks.front().lead.empty(); // else it has warnings alone
   if (findings.has_many())

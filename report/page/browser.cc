@@ -1,7 +1,7 @@
 #include "report/page/browser.h"
 
-#include "base/input_error.h"
 #include "base/readable_file.h"
+#include "base/whole_file.h"
 
 #include <boost/archive/iterators/binary_from_base64.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
@@ -26,9 +26,12 @@ constexpr std::array browsers{"chromium", "google-chrome"};
 class ScratchFolder
 {
 public:
-  ScratchFolder()
+  /// Makes it where temporary files are kept, or else in a folder that is there.
+  explicit ScratchFolder(const std::filesystem::path& other)
   {
-    std::string name = (std::filesystem::temp_directory_path() / "feldspar-browser-XXXXXX").string();
+    std::error_code problem;
+    const std::filesystem::path place = std::filesystem::temp_directory_path(problem);
+    std::string name = ((problem ? other : place) / "feldspar-browser-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
       throw OutputError(fmt::format("{}: no folder can be made there for the browser", name));
     folder = name;
@@ -81,7 +84,7 @@ DrawnByBrowser drawn_by_browser(const std::filesystem::path& page, const std::st
                                 const int pixels_per_length, const std::chrono::milliseconds longest,
                                 const std::function<bool()>& is_over)
 {
-  const ScratchFolder scratch;
+  const ScratchFolder scratch(std::filesystem::absolute(page).parent_path());
   const std::filesystem::path text = scratch.path() / "page";
   std::vector<std::string> command{browser(),
                                    "--headless=new",
