@@ -148,8 +148,8 @@ Pictures stress_picture(const SameTests& same)
 
 std::vector<ConfinedCurves> confined_curves(const Series& series)
 {
-  // From light to dark, as the confinement rises.
-  constexpr std::array tones{"#8fbcbb", "#56b4e9", "#0072b2", "#332288", "#882255", "#cc6677", "#e69f00", "#999933"};
+  // From light to dark, as the confinement rises; the orange and the blue of cracks stand beside them.
+  constexpr std::array tones{"#d4a6c8", "#b06fb0", "#8446a0", "#332288", "#882255", "#cc6677", "#999933", "#665c00"};
   std::vector<ConfinedCurves> all;
   for (TestGroup& group : groups_of(series))
     if (group.envelope_role() == EnvelopeRole::compression && group.kind.has_uniform_stress &&
