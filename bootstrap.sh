@@ -131,11 +131,11 @@ demo()
   need_packages "${build_packages[@]}"
   build_release feldspar # without the finite elements, whose headers are half of a build
   local feldspar=build/release/app/feldspar
-  say "breaking three specimens of Beishan granite: two minutes on two fast cores"
+  say "breaking three specimens of Beishan granite: a minute and a half of processor time"
   "$feldspar" lab examples/beishan-granite/demo.prm --output demo/direct --force
   say "the first page is demo/direct/report.html; the finite elements come next"
   build_release
-  say "the same rock as finite elements with grains inside: four minutes on two fast cores"
+  say "the same rock as finite elements with grains inside: seven minutes of processor time"
   "$feldspar" multiscale examples/multiscale-beishan/demo.prm --output demo/multiscale --force
   say "both in one report"
   "$feldspar" report demo/direct demo/multiscale --output demo/report --force
