@@ -30,7 +30,7 @@ test_packages=(
   "${site_packages[@]}"
   "${python_packages[@]}"
   clang clang-format clang-tidy python3 libgtest-dev libbenchmark-dev locales chromium slurm-wlm
-  python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing; reads fields/
+  python3-vtk9 # reads fields/ as ParaView does, for a test
   mypy jupyter-nbconvert python3-ipykernel # of the Python module and its notebooks
   r-base-core # scripts of docs/recipes.md
 )
@@ -136,11 +136,11 @@ demo()
   python_module=OFF
   build_release feldspar # without the finite elements, whose headers are half of a build
   local feldspar=build/release/app/feldspar
-  say "breaking three specimens of Beishan granite: two minutes on two fast cores"
+  say "breaking three specimens of Beishan granite: a minute and a half of processor time"
   "$feldspar" lab examples/beishan-granite/demo.prm --output demo/direct --force
   say "the first page is demo/direct/report.html; the finite elements come next"
   build_release
-  say "the same rock as finite elements with grains inside: four minutes on two fast cores"
+  say "the same rock as finite elements with grains inside: seven minutes of processor time"
   "$feldspar" multiscale examples/multiscale-beishan/demo.prm --output demo/multiscale --force
   say "both in one report"
   "$feldspar" report demo/direct demo/multiscale --output demo/report --force

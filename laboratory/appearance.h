@@ -80,9 +80,10 @@ struct TestAppearance
 {
   std::vector<GrainPicture> grains_at_end;
   std::vector<FlawPicture> flaws;
-  std::vector<Snapshot> snapshots; ///< a few, evenly over the curve; the first is the start
-  SampleFields fields;             ///< read back from the folder; never written by who writes a result folder
-  std::vector<PointRve> rves;      ///< representative volumes of a few points
+  std::vector<Snapshot> snapshots;         ///< a few, evenly over the curve; the first is the start
+  SampleFields fields;                     ///< read back from the folder; never written by who writes a result folder
+  std::vector<SampleFields> fields_before; ///< of earlier times, of a small sample
+  std::vector<PointRve> rves;              ///< representative volumes of a few points
 };
 
 /// Fragments of the grains; none without grains.

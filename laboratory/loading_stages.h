@@ -27,6 +27,8 @@ struct LoadingTable
 {
   std::string file;                 ///< CSV; empty: none
   std::vector<LoadingStage> stages; ///< read from it
+  /// Confining pressure before the first stage; none: that at its end [Pa].
+  std::optional<double> pressure_at_start = {};
 };
 
 /// The entries of LoadingTable.

@@ -32,9 +32,11 @@ void StageWalk::begin_next(const std::uint64_t row, const StageMoment& now)
 
 void StageWalk::begin_last(const std::uint64_t row, const StageMoment& now)
 {
+  const double reached = demand(now).confining_pressure;
   early.clear();
   begun.back().last_row = row;
   begin_next(row, now);
+  pressure_before = reached;
 }
 
 bool StageWalk::needs_lateral_strain() const
@@ -54,10 +56,9 @@ StageDemand StageWalk::demand(const StageMoment& now)
     share = (now.lateral_strain - start.lateral_strain) / (*running.lateral_strain - start.lateral_strain);
   else if (running.axial_strain && *running.axial_strain != start.axial_strain)
     share = (now.axial_strain - start.axial_strain) / (*running.axial_strain - start.axial_strain);
-  const double pressure_before = stages[begun.size() == 1 ? 0 : begun.size() - 2].confining_pressure;
+  const double before = pressure_before.value_or(stages[begun.size() == 1 ? 0 : begun.size() - 2].confining_pressure);
   StageDemand result;
-  result.confining_pressure =
-    pressure_before + std::clamp(share, 0.0, 1.0) * (running.confining_pressure - pressure_before);
+  result.confining_pressure = before + std::clamp(share, 0.0, 1.0) * (running.confining_pressure - before);
   result.closing_rate = 0.0;
   if (running.duration)
     result.held_stress = running.axial_stress;
@@ -117,6 +118,7 @@ bool StageWalk::is_over(const std::vector<CurveSample>& curve, const StageMoment
       if (begun.size() == stages.size())
         return true;
       begin_next(record.last_row, now);
+      pressure_before.reset();
       return false;
     }
   const double most = wanted.stop_strain.value_or(largest_axial_strain);

@@ -40,6 +40,7 @@ public:
   explicit StageWalk(const TestParameters& parameters)
     : wanted(parameters)
     , stages(parameters.of<LoadingTable>().stages)
+    , pressure_before(parameters.of<LoadingTable>().pressure_at_start)
     , axial_strain_rate(parameters.of<CompressionParameters>().strain_rate)
   {
   }
@@ -112,6 +113,8 @@ private:
 
   TestParameters wanted;
   std::vector<LoadingStage> stages;
+  /// Confining pressure when the present stage began; none: that at the end of the one before, or of itself [Pa].
+  std::optional<double> pressure_before;
   double axial_strain_rate;       ///< of a stage that names none [1/s]
   std::vector<StageRecord> begun; ///< the last one runs
   std::string early;

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -94,7 +95,8 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
 }
 
 /// The picture that ranks highest, the first of its rank, taken out of its place; none where all rank 0.
-std::vector<PagePicture> taken_out(std::vector<PageSection>& sections, std::size_t (*const rank)(const Picture&))
+std::vector<PagePicture> taken_out(std::vector<PageSection>& sections,
+                                   const std::function<std::size_t(const Picture&)>& rank)
 {
   std::vector<PagePicture>* where = nullptr;
   std::size_t which = 0, highest = 0;
@@ -132,13 +134,21 @@ std::size_t rank_of_answer(const Picture& picture)
   return picture.name == "envelopes" ? 2 : picture.story.empty() ? 1 : 0;
 }
 
-/// Rank of the curves below it: those of all confinements, else those without confinement.
-std::size_t rank_of_curves(const Picture& picture)
+/// Rank of the curves below it: those with a measured one, then of all confinements, else those without confinement.
+std::size_t rank_of_curves(const Picture& picture, const std::vector<Series>& all)
 {
-  return picture.name.starts_with("compression_")        ? 3
-         : picture.name == "uniaxial_compression_stress" ? 2
-         : picture.name.ends_with("_stress")             ? 1
-                                                         : 0;
+  const auto shows = [&](const Series& series) {
+    return series.kind == SeriesKind::laboratory_curve &&
+           std::any_of(picture.panels.begin(), picture.panels.end(), [&](const Chart& panel) {
+             return std::any_of(panel.series.begin(), panel.series.end(),
+                                [&](const ChartSeries& one) { return one.label.starts_with(series.label); });
+           });
+  };
+  return picture.name.ends_with("_stress") && std::any_of(all.begin(), all.end(), shows) ? 4
+         : picture.name.starts_with("compression_")                                      ? 3
+         : picture.name == "uniaxial_compression_stress"                                 ? 2
+         : picture.name.ends_with("_stress")                                             ? 1
+                                                                                         : 0;
 }
 
 /// Name of a rock in a title, from its name in a reference.
@@ -177,10 +187,6 @@ Page page_of(const Findings& findings, PictureBook& book)
     page.sections.push_back(std::move(sample));
   page.sections.push_back(crack_section(findings, book));
   page.sections.push_back(trust_section(findings));
-  auto overview = findings.one_folder ? overview_picture(findings.all.front()) : std::vector<Picture>();
-  for (Picture& picture : overview)
-    picture.caption = findings.titled(picture.caption, findings.all.front());
-  book.keep_as_files(overview);
   PageSection study = study_section(findings, book);
   const bool is_first = !study.blocks.empty() && !study.blocks.front().lead.empty(); // else it has warnings alone
   if (findings.has_many())
@@ -198,7 +204,8 @@ Page page_of(const Findings& findings, PictureBook& book)
         lead = taken_out(page.sections, rank_of_sample);
       if (const bool is_sample = !lead.empty() && lead.front().picture.story.empty(); !is_sample)
         append(lead, taken_out(page.sections, rank_of_answer));
-      append(lead, taken_out(page.sections, rank_of_curves));
+      append(lead,
+             taken_out(page.sections, [&](const Picture& picture) { return rank_of_curves(picture, findings.all); }));
     }
   // A page begins with what its run was made for.
   if (!study.blocks.empty())

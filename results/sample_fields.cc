@@ -217,6 +217,23 @@ SampleFields read_sample_fields(const std::filesystem::path& folder, const std::
   return reading(index, [&] { return fields_of(folder, times_in(index).back()); });
 }
 
+std::vector<SampleFields> read_earlier_sample_fields(const std::filesystem::path& folder, const std::string& name,
+                                                     const std::size_t most_cells)
+{
+  const auto index = index_of(folder, name);
+  return reading(index, [&] {
+    std::vector<SampleFields> earlier;
+    const auto times = times_in(index);
+    for (std::size_t k = 0; k + 1 < times.size(); ++k)
+      {
+        earlier.push_back(fields_of(folder, times[k]));
+        if (earlier.front().cells.size() * (times.size() - 1) > most_cells)
+          return std::vector<SampleFields>();
+      }
+    return earlier;
+  });
+}
+
 void for_each_time(const std::filesystem::path& folder, const std::string& name,
                    const std::function<void(const SampleFields&)>& look)
 {

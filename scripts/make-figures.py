@@ -26,13 +26,13 @@ GRANITE = "examples/beishan-granite/results/ensemble.json"
 CONTACT_MODELS = "examples/contact-models/results/"
 PLANE_SAMPLE = "examples/multiscale-beishan/results/beishan.json"
 
-# The figure; the run and the picture of it, or the series of committed results and the picture of their report; the
-# committed results that have the same tests.
+# The figure; the run and the picture of it (of its page the first screen), or the series of committed results and the picture
+# of their report; the committed results that have the same tests.
 FIGURES_OF_RUNS = {
-    "beishan-overview.png": (
-        ["lab", "examples/beishan-granite/beishan.prm"],
-        "overview.png",
-        "examples/beishan-granite/results/beishan.json",
+    "beishan-report.png": (
+        ["lab", "examples/beishan-granite/demo.prm"],
+        "report.html",
+        GRANITE,
     ),
     "multiscale-cylinder-tension.svg": (
         ["multiscale", "examples/multiscale-beishan-cylinder/tension.prm"],
@@ -74,6 +74,17 @@ def of_run(feldspar, command, work):
     if not os.path.exists(folder):
         subprocess.run([feldspar, *command, "--output", folder], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     return folder
+
+
+def shoot(page, target):
+    """The first screen of a page, by Chromium."""
+    with tempfile.TemporaryDirectory() as profile:
+        subprocess.run(
+            ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--hide-scrollbars"]
+            + ["--disable-dev-shm-usage", f"--user-data-dir={profile}", "--window-size=1280,960", f"--screenshot={target}", page],
+            check=True,
+            stderr=subprocess.DEVNULL,
+        )
 
 
 def of_results(feldspar, series, work):
@@ -141,7 +152,9 @@ def main():
                 entry["command"] = "feldspar report"
                 entry["series"] = series
             target = os.path.join(FIGURES, name)
-            if picture:
+            if picture == "report.html":
+                shoot(os.path.join(folder, picture), target)
+            elif picture:
                 shutil.copyfile(os.path.join(folder, "figures", picture), target)
             with open(target, "rb") as file:
                 entry["sha256"] = hashlib.sha256(file.read()).hexdigest()

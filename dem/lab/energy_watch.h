@@ -16,7 +16,8 @@ public:
   bool has_grown_without_work(const Energies& now)
   {
     most_put_in = std::max(most_put_in, std::abs(now.boundary_work) + now.kinetic_at_start);
-    return !(-now.unaccounted() <= most_put_in);
+    constexpr double round_off = 4e-21; // of a body at rest: k_B T of a room [J]
+    return !(-now.unaccounted() <= most_put_in + round_off);
   }
 
 private:

@@ -17,7 +17,7 @@
 /// what says "compression positive". Docs: docs/library.md.
 ///
 /// Each function throws Error, one line for the user, for what cannot be done. Objects of different threads are independent;
-/// one object serves one thread at a time.
+/// one object serves one thread at a time, and others wait.
 #define FELDSPAR_PUBLIC __attribute__((visibility("default")))
 
 namespace feldspar
@@ -64,7 +64,7 @@ FELDSPAR_PUBLIC std::string version();
 /// The number of threads of this process that the library may work on from now on; 0: all.
 FELDSPAR_PUBLIC void set_threads(std::size_t n);
 
-/// An SI value of a text such as "22 MPa". `quantity`: stress, length, angle, density, rate.
+/// An SI value of a text such as "22 MPa". `quantity`: stress, length, angle, density, rate, duration.
 FELDSPAR_PUBLIC double in_si(std::string_view text, std::string_view quantity);
 
 /// An entry of the input, for reference.
@@ -161,8 +161,8 @@ public:
   /// A test of a kind (direct_tension, triaxial_compression, …) on a copy of the specimen, by the entries of the input that
   /// are about tests. Confining pressure: compression positive [Pa].
   Test(const Specimen& specimen, const Input& input, std::string_view kind, double confining_pressure = 0.0);
-  /// A test of one's own between platens and side walls, which begins with this stage.
-  Test(const Specimen& specimen, const Input& input, const Stage& first);
+  /// A test of one's own between platens and side walls, which begins at a confining pressure with this stage.
+  Test(const Specimen& specimen, const Input& input, double confining_pressure, const Stage& first);
   Test(Test&&) noexcept;
   Test& operator=(Test&&) noexcept;
   ~Test();
@@ -232,11 +232,12 @@ public:
   Trial trial(std::span<const double> strain, bool with_tangent = false, const Check& check = {}) const;
   /// The response with bonds that break until none is overloaded.
   Trial relax(std::span<const double> strain, bool with_tangent = false, const Check& check = {}) const;
+  /// Takes a trial of this volume, or of one that shares its cell, as the state.
   void accept(const Trial& trial);
   /// The factor of the direction at which the first segment of the intact cell breaks, in closed form; infinity if none does.
   double first_break(std::span<const double> direction) const;
 
-  /// The state as bytes, for restore() of the same version and the same cell.
+  /// The state as bytes, for restore() of the same version and the same cell. Others are refused, and so are changed bytes.
   std::string state() const;
   void restore(const std::string& state);
 

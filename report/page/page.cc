@@ -24,8 +24,7 @@ namespace
 using kainjow::mustache::data;
 using live::base64;
 
-constexpr std::size_t most_bytes = 9'900'000; // of a page of 10 MB; sentences in place of pictures need a little
-constexpr int wide_picture = 900;             // from here on a picture takes the width of the page [px]
+constexpr int wide_picture = 900; // from here on a picture takes the width of the page [px]
 
 /// Hash by which a policy names the one script that may run: no other does, whatever text comes into the page.
 std::string hash_of_script()
@@ -157,13 +156,14 @@ public:
         }
     data result = data::type::object;
     set_unless_empty(result, "source", source);
-    set_unless_empty(result, "absent", problem);
     std::string live = picture.live();
     const bool has_room = n_bytes + live.size() <= most_picture_bytes;
     if (!has_room)
       live.clear();
     n_bytes += live.size();
     set_unless_empty(result, "live", live);
+    // The script draws a body for paper, too.
+    set_unless_empty(result, picture.body.empty() || live.empty() ? "absent" : "without_script", problem);
     result.set("alternative", picture.alternative);
     result.set("caption", picture.caption);
     set_unless_empty(result, "live_caption", has_room ? picture.live_caption : "");
@@ -302,9 +302,10 @@ std::string rendered(const Page& page, const std::filesystem::path& figures, con
 }
 } // namespace
 
-void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures)
+void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures,
+                const std::size_t most_bytes)
 {
-  const auto left = [](const std::size_t used) { return most_bytes - std::min(most_bytes, used); };
+  const auto left = [=](const std::size_t used) { return most_bytes - std::min(most_bytes, used); };
   const std::size_t for_pictures = left(rendered(page, figures, 0, 0).size());
   // Pictures come first; what they leave is for the files that a mailed page would else lose.
   const std::size_t for_pdf = left(rendered(page, figures, for_pictures, 0).size() + most_bytes / 100);

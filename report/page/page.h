@@ -70,7 +70,8 @@ struct Page
 };
 
 /// Writes the page as one file that needs no other and no network. Pictures stand in it as data, as far as the text leaves
-/// room for them in 10 MB; the others are named instead. A script shows curves and specimens so that they respond to
+/// room for them in `most_bytes`, 10 MB with what stands in their place; the others are named instead. A script shows curves and specimens so that they respond to
 /// the pointer. `figures` is where they were drawn, beside the page.
-void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures);
+void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures,
+                std::size_t most_bytes = 9'900'000);
 } // namespace feldspar

@@ -182,8 +182,33 @@
     return plot;
   }
 
-  // `feldspar report --film` opens the page with this fragment: the first specimens alone, and their film as text.
+  // The picture for paper of specimens: on white, however the page is shown.
+  const onPaper = {"--text": "#1b1f24", "--card": "#ffffff", "--line": "#d5dae0"};
+  const still = data => {
+    const stage = element("div", document.body, {className: "still"});
+    stage.style.width = `${18 * data.tests.length}rem`;
+    const view = specimensView({stage, bar: document.createElement("div"), buttons() {}, hint() {}}, data, chart,
+                               {element, theme: name => onPaper[name], dark: {matches: false}, digits, swift: asked});
+    const picture = view.still();
+    view.end();
+    stage.remove();
+    return picture;
+  };
+
+  // The program opens a page with a fragment, and reads what its script draws (report/page/browser.h): the first specimens
+  // as a film, or all as pictures.
   const sources = [...document.querySelectorAll("script.live-data")];
+  const ofSpecimens = () => sources.map(one => [one.closest("figure"), JSON.parse(one.textContent)]).filter(([, data]) => data.what === "specimens");
+  const asked = ["#film", "#stills"].includes(location.hash);
+  const handOver = all => document.body.replaceChildren(...all.map(textContent => Object.assign(document.createElement("pre"), {className: "drawn", textContent})));
+  if (location.hash === "#stills")
+    return handOver(ofSpecimens().map(([, data]) => {
+      try {
+        return still(data).split(",")[1];
+      } catch {
+        return ""; // without WebGL
+      }
+    }));
   const filmed = location.hash === "#film" ? sources.find(one => JSON.parse(one.textContent).what === "specimens") : null;
   if (filmed) {
     document.body.replaceChildren(filmed.closest("figure"));
@@ -265,7 +290,7 @@
       begin();
       const film = filmed && figure.film?.(32);
       if (film)
-        element("pre", document.body, {id: "film", textContent: btoa(Array.from(film, one => String.fromCharCode(one)).join(""))});
+        handOver([btoa(Array.from(film, one => String.fromCharCode(one)).join(""))]);
       continue;
     }
     new IntersectionObserver((seen, observer) => {
@@ -276,6 +301,17 @@
     }, {rootMargin: `${reach}px`}).observe(frame);
   }
   dark.addEventListener("change", () => drawn.forEach(anew => anew()));
+  // Specimens that came without a picture get one for paper.
+  addEventListener("beforeprint", () => {
+    for (const [frame, data] of ofSpecimens())
+      if (!frame.querySelector("img"))
+        try {
+          const src = still(data);
+          element("img", element("div", frame, {className: "picture"}), {src});
+        } catch {
+          return; // without WebGL
+        }
+  });
 
   // The picture that is shown is in the page: its link works where the page was mailed alone.
   for (const link of document.querySelectorAll("a[data-shown]")) {

@@ -24,6 +24,9 @@ public:
   std::string draw_into(const std::filesystem::path& folder, Page& page, const DrawingWatch& watch) const;
 
 private:
+  /// Draws bodies in space by a browser. Returns the names of the pictures that are missing.
+  std::vector<std::string> draw_bodies_into(const std::filesystem::path& folder, const DrawingWatch& watch) const;
+
   bool is_taken(const std::string& name) const;
 
   std::vector<Picture> all;

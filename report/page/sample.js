@@ -1,36 +1,34 @@
-// Shows the cells of a sample of finite elements, coloured by one of their fields, from rest to their displaced places.
+// Shows the cells of a sample of finite elements, coloured by one of their fields, at the times at which these were stored.
 "use strict";
 const sampleView = (figure, data, {element, theme, digits}) => {
   const lightToDark = ["#f3f1ea", "#fdd49e", "#fc8d59", "#d7301f", "#a00000"].map(rgb);
-  const set = (figure.kept ||= {field: "broken_segments_share", moved: 1, chosen: -1});
+  const set = (figure.kept ||= {field: "broken_segments_share", time: data.times.length - 1, chosen: -1});
   const box = element("div", figure.stage, {className: "sample"});
   const canvas = element("canvas", box, {tabIndex: 0});
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", figure.alternative);
   const key = element("div", box, {className: "key"});
   const controls = element("div", box, {className: "controls"});
-  const label = element("label", controls, {textContent: `displacements × 0 to ${digits(data.scale)} `});
-  const slider = element("input", label, {type: "range", min: 0, max: 1, step: 0.01, value: set.moved});
+  const slider = element("input", controls, {type: "range", min: 0, max: data.times.length - 1, step: 1, value: set.time});
+  slider.setAttribute("aria-label", "Time of the test");
+  const title = element("output", controls);
   const reading = element("p", box, {className: "reading"});
   reading.setAttribute("aria-live", "polite");
 
-  const corners = cell => cell.rest.map((value, k) => value + set.moved * (cell.moved[k] - value));
-  const limits = [Infinity, -Infinity, Infinity, -Infinity]; // of both states, so that the slider moves no axes
-  for (const cell of data.cells)
-    for (const points of [cell.rest, cell.moved])
-      points.forEach((value, k) => {
-        const axis = 2 * (k % 2);
-        limits[axis] = Math.min(limits[axis], value);
-        limits[axis + 1] = Math.max(limits[axis + 1], value);
-      });
+  const limits = [Infinity, -Infinity, Infinity, -Infinity]; // of all times, so that the slider moves no axes
+  for (const points of [data.cells.map(cell => cell.rest), ...data.times.map(time => time.moved)].flat())
+    points.forEach((value, k) => {
+      const axis = 2 * (k % 2);
+      limits[axis] = Math.min(limits[axis], value);
+      limits[axis + 1] = Math.max(limits[axis + 1], value);
+    });
   const [width, height] = [limits[1] - limits[0] || 1, limits[3] - limits[2] || 1];
   canvas.style.aspectRatio = `${Math.max(0.3, Math.min(3, width / height))}`;
   const onCanvas = () => {
     const size = Math.min((canvas.clientWidth - 8) / width, (canvas.clientHeight - 8) / height);
     return (x, y) => [canvas.clientWidth / 2 + size * (x - (limits[0] + limits[1]) / 2), canvas.clientHeight / 2 - size * (y - (limits[2] + limits[3]) / 2)];
   };
-  const outline = (pen, cell, at) => {
-    const points = corners(cell);
+  const outline = (pen, points, at) => {
     pen.beginPath();
     for (let k = 0; k < points.length; k += 2)
       pen.lineTo(...at(points[k], points[k + 1]));
@@ -39,7 +37,10 @@ const sampleView = (figure, data, {element, theme, digits}) => {
 
   const draw = () => {
     const field = data.fields.find(one => one.field === set.field) || data.fields[0];
-    const known = field.values.filter(value => value !== null);
+    const values = field.values[set.time];
+    const corners = data.times[set.time].moved;
+    title.textContent = data.times[set.time].title;
+    const known = values.filter(value => value !== null);
     const [least, most] = [Math.min(...known), Math.max(...known)];
     const far = Math.max(-least, most);
     const [ramp, from, to] = least < 0 && most > 0 ? [bothWays, -far, far] : [lightToDark, least, most];
@@ -49,9 +50,9 @@ const sampleView = (figure, data, {element, theme, digits}) => {
     pen.scale(pixels, pixels);
     const at = onCanvas();
     const css = colour => `rgb(${colour.map(Math.round).join(" ")})`;
-    data.cells.forEach((cell, k) => {
-      const value = field.values[k];
-      outline(pen, cell, at);
+    corners.forEach((points, k) => {
+      const value = values[k];
+      outline(pen, points, at);
       pen.fillStyle = value === null ? theme("--card") : css(onRamp(to > from ? (value - from) / (to - from) : 0, ramp));
       pen.fill();
       pen.strokeStyle = theme("--faint");
@@ -59,7 +60,7 @@ const sampleView = (figure, data, {element, theme, digits}) => {
       pen.stroke();
     });
     if (set.chosen >= 0) {
-      outline(pen, data.cells[set.chosen], at);
+      outline(pen, corners[set.chosen], at);
       pen.strokeStyle = theme("--link");
       pen.lineWidth = 3;
       pen.stroke();
@@ -68,7 +69,7 @@ const sampleView = (figure, data, {element, theme, digits}) => {
     pen.font = "600 13px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.textBaseline = "middle";
-    for (const {letter, at: place} of set.moved === 1 ? data.marks : []) {
+    for (const {letter, at: place} of set.time === data.times.length - 1 ? data.marks : []) {
       pen.beginPath();
       pen.arc(...at(...place), 9, 0, 2 * Math.PI);
       pen.fillStyle = theme("--page");
@@ -87,7 +88,7 @@ const sampleView = (figure, data, {element, theme, digits}) => {
   const choose = k => {
     set.chosen = k;
     reading.textContent = k < 0 ? "" : `Cell ${data.cells[k].cell}: ` +
-      data.fields.map(field => `${field.name} ${digits(field.values[k])} ${field.unit}`.trim()).join(", ");
+      data.fields.map(field => `${field.name} ${digits(field.values[set.time][k])} ${field.unit}`.trim()).join(", ");
     draw();
   };
   canvas.addEventListener("click", event => {
@@ -95,14 +96,14 @@ const sampleView = (figure, data, {element, theme, digits}) => {
     const pen = canvas.getContext("2d");
     const pixels = devicePixelRatio || 1;
     const at = onCanvas();
-    choose(data.cells.findIndex(cell => {
-      outline(pen, cell, at);
+    choose(data.times[set.time].moved.findIndex(points => {
+      outline(pen, points, at);
       return pen.isPointInPath((event.clientX - place.left) * pixels, (event.clientY - place.top) * pixels);
     }));
   });
   slider.addEventListener("input", () => {
-    set.moved = Number(slider.value);
-    draw();
+    set.time = Number(slider.value);
+    choose(set.chosen);
   });
   const fieldLabel = element("label", figure.bar, {textContent: "field "});
   const select = element("select", fieldLabel);

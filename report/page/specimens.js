@@ -58,10 +58,11 @@ const specimensView = (figure, data, chart, tools) => {
     relative: false,
   });
   const panes = [];
+  const toneOf = (test, k) => test.colour || testTones[k];
   const anew = () => panes.forEach(pane => pane.draw());
   const tell = text => (reading.textContent = text);
   tests.forEach((test, k) => panes.push(specimenView(
-    row, test, set, {tone: testTones[k], anew, tell, alternative: `${figure.alternative} ${test.title}.`, lose: () => figure.printed()}, tools)));
+    row, test, set, {tone: toneOf(test, k), anew, tell, alternative: `${figure.alternative} ${test.title}.`, lose: () => figure.printed()}, tools)));
   const longest = Math.min(4, Math.max(...panes.map(pane => pane.course.at(-1))));
 
   // The curves, and a mark on each.
@@ -71,11 +72,13 @@ const specimensView = (figure, data, chart, tools) => {
   const drawCurves = () => {
     plot?.destroy();
     plotBox.textContent = "";
-    const lines = tests.map((test, k) => ({kind: "line", label: test.title, goes_with: "", colour: testTones[k], width: 2.2, dashes: 1, points: test.rows.map(one => onCurve(one, k))}));
+    const lines = tests.map((test, k) => ({kind: "line", label: test.title, goes_with: "", colour: toneOf(test, k), width: 2.2, dashes: 1, points: test.rows.map(one => onCurve(one, k))}));
     const marks = tests.map((test, k) => ({...lines[k], kind: "marks", mark: 7, goes_with: test.title, points: []}));
     plot = chart({...figure, stage: plotBox, buttons() {}, hint() {}}, {
       x: set.relative ? "strain over that at the peak" : "strain [10⁻³], positive as the test loads",
       y: set.relative ? "stress over the strength" : "stress [MPa]",
+      // Waves of a body that came apart are not shown.
+      from_zero: tests.every(test => test.rows.every(one => one[1] === null || one[1] >= -0.05 * Math.max(...peaks.map(peak => peak[1])))),
       lines: [...lines, ...marks],
     });
   };
@@ -103,6 +106,8 @@ const specimensView = (figure, data, chart, tools) => {
       chip(css(kindTones[1]), "shear crack");
     if (set.cracks === "strain")
       bar("cracks: begin", "end of the test");
+    if (set.cracks === "opening")
+      bar("cracks: opening at the end 0", `${ofEach("typicalOpening")} µm`);
     if (set.grains === "displacement")
       bar("grains: 0", `${ofEach("typicalMotion")} mm, at the end`);
     else if (set.grains === "stress")
@@ -151,57 +156,72 @@ const specimensView = (figure, data, chart, tools) => {
     go((slider.value * longest) / 1000);
   });
 
-  // The film as WebP: panes, curves and their words as they stand on the screen. Null where the browser writes none.
-  const film = nFrames => {
-    const frame = box.getBoundingClientRect();
-    const sheet = document.createElement("canvas");
-    const edge = 8;
-    sheet.width = Math.ceil(frame.width) + 2 * edge;
-    sheet.height = Math.ceil(Math.max(row.getBoundingClientRect().bottom, key.getBoundingClientRect().bottom) - frame.top) + 2 * edge;
-    const pen = sheet.getContext("2d", {alpha: false, willReadFrequently: true});
+  // Draws a part of the view as it stands on the screen, moved to the right: panes, curves and words.
+  const edge = 8;
+  const paste = (pen, part, right) => {
+    const {left: from, top: above} = box.getBoundingClientRect();
     const at = one => {
       const {left, top, width, height} = one.getBoundingClientRect();
-      return [left - frame.left + edge, top - frame.top + edge, width, height];
+      return [left - from + edge + right, top - above + edge, width, height];
     };
+    for (const one of part.querySelectorAll("canvas"))
+      pen.drawImage(one, ...at(one));
+    for (const one of part.querySelectorAll(".chip")) {
+      pen.fillStyle = getComputedStyle(one).backgroundColor;
+      pen.fillRect(...at(one));
+    }
+    // Each line of a text where it stands.
+    pen.fillStyle = theme("--text");
+    for (const one of part.querySelectorAll(".scale")) {
+      const [left, top, width, height] = at(one);
+      pen.fillRect(left, top + height - 2, width, 2);
+    }
+    pen.textBaseline = "middle";
+    const walk = document.createTreeWalker(part, NodeFilter.SHOW_TEXT);
+    for (let text; (text = walk.nextNode());) {
+      if (controls.contains(text))
+        continue;
+      pen.font = getComputedStyle(text.parentElement).font;
+      const range = document.createRange();
+      let line = "", [left, top] = [0, 0];
+      for (let n = 0; n <= text.length; ++n) {
+        range.setStart(text, Math.min(n, text.length - 1));
+        range.setEnd(text, Math.min(n + 1, text.length));
+        const [x, y, , height] = at(range);
+        if (n === text.length || (line && y + height / 2 > top + 4)) {
+          pen.fillText(line, left, top);
+          line = "";
+        }
+        if (!line)
+          [left, top] = [x, y + height / 2];
+        line += text.data[n] ?? "";
+      }
+    }
+  };
+  const sheetOf = (width, height, pixels) => {
+    const sheet = document.createElement("canvas");
+    Object.assign(sheet, {width: Math.ceil((width + 2 * edge) * pixels), height: Math.ceil((height + 2 * edge) * pixels)});
+    const pen = sheet.getContext("2d", {alpha: false, willReadFrequently: true});
+    pen.scale(pixels, pixels);
+    const clear = () => {
+      pen.fillStyle = theme("--card");
+      pen.fillRect(0, 0, sheet.width, sheet.height);
+    };
+    clear();
+    return {sheet, pen, clear};
+  };
+
+  // The film as WebP. Null where the browser writes none.
+  const film = nFrames => {
+    const frame = box.getBoundingClientRect();
+    const {sheet, pen, clear} =
+      sheetOf(frame.width, Math.max(row.getBoundingClientRect().bottom, key.getBoundingClientRect().bottom) - frame.top, 1);
     const stills = [];
     const before = set.share;
     for (let k = 0; k < nFrames; ++k) {
       go((k * longest) / (nFrames - 1));
-      pen.fillStyle = theme("--card");
-      pen.fillRect(0, 0, sheet.width, sheet.height);
-      for (const one of box.querySelectorAll("canvas"))
-        pen.drawImage(one, ...at(one));
-      for (const one of box.querySelectorAll(".chip")) {
-        pen.fillStyle = getComputedStyle(one).backgroundColor;
-        pen.fillRect(...at(one));
-      }
-      // Each line of a text where it stands.
-      pen.fillStyle = theme("--text");
-      for (const one of box.querySelectorAll(".scale")) {
-        const [left, top, width, height] = at(one);
-        pen.fillRect(left, top + height - 2, width, 2);
-      }
-      pen.textBaseline = "middle";
-      const walk = document.createTreeWalker(box, NodeFilter.SHOW_TEXT);
-      for (let text; (text = walk.nextNode());) {
-        if (controls.contains(text))
-          continue;
-        pen.font = getComputedStyle(text.parentElement).font;
-        const range = document.createRange();
-        let line = "", [left, top] = [0, 0];
-        for (let n = 0; n <= text.length; ++n) {
-          range.setStart(text, Math.min(n, text.length - 1));
-          range.setEnd(text, Math.min(n + 1, text.length));
-          const [x, y, , height] = at(range);
-          if (n === text.length || (line && y + height / 2 > top + 4)) {
-            pen.fillText(line, left, top);
-            line = "";
-          }
-          if (!line)
-            [left, top] = [x, y + height / 2];
-          line += text.data[n] ?? "";
-        }
-      }
+      clear();
+      paste(pen, box, 0);
       const still = sheet.toDataURL("image/webp", 0.85);
       if (!still.startsWith("data:image/webp"))
         return null;
@@ -209,6 +229,23 @@ const specimensView = (figure, data, chart, tools) => {
     }
     go(before ?? longest);
     return animated([...stills, ...Array(6).fill(stills.at(-1))], sheet.width, sheet.height, 200);
+  };
+
+  // The picture for paper as the address of a PNG: one test at its stages, several at their ends. The curves are gone then.
+  const still = () => {
+    course.replaceWith(key);
+    row.querySelectorAll(".header .chip").forEach(one => one.remove()); // the colours of the curves
+    const stages = tests.length > 1 ? [["", Infinity]] : tests[0].stages;
+    const frame = box.getBoundingClientRect();
+    const {sheet, pen} = sheetOf(frame.width * stages.length + 2 * edge * (stages.length - 1), frame.height, devicePixelRatio || 1);
+    stages.forEach(([title, at], k) => {
+      if (title)
+        row.querySelector(".entry").lastChild.data = title;
+      panes.forEach(pane => pane.showRow(at));
+      paste(pen, row, k * (frame.width + 2 * edge));
+    });
+    paste(pen, key, 0);
+    return sheet.toDataURL("image/png");
   };
 
   const choice = (name, all) => {
@@ -231,7 +268,7 @@ const specimensView = (figure, data, chart, tools) => {
   choice("grains", [...(panes.every(pane => pane.hasMinerals) ? [["mineral grain", "by mineral grain"]] : []), ["plain", "one colour"],
                     ["fragment", "by fragment"], ["displacement", "by displacement"],
                     ...(panes.every(pane => pane.hasStress) ? [["stress", "by mean stress"]] : []), ["hidden", "hidden"]]);
-  choice("cracks", [["kind", "by kind"], ["strain", "by strain"], ["tension", "tension alone"], ["shear", "shear alone"], ["hidden", "hidden"]]);
+  choice("cracks", [["kind", "by kind"], ["strain", "by strain"], ["opening", "by opening"], ["tension", "tension alone"], ["shear", "shear alone"], ["hidden", "hidden"]]);
   figure.buttons([["+", () => panes[0].enlarge(1.25)], ["−", () => panes[0].enlarge(0.8)], ["whole", () => panes[0].whole()],
                   ["curves over the peak", () => {
                     set.relative = !set.relative;
@@ -255,6 +292,7 @@ const specimensView = (figure, data, chart, tools) => {
   go(set.share ?? longest);
   return {
     film,
+    still,
     end() {
       stop();
       plot.destroy();

@@ -155,7 +155,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
   const grains = {place: decoded(data.grains.place, Uint16Array), moved: decoded(data.grains.moved, Int16Array),
                   stress: decoded(data.grains.stress, Int16Array), fragment: decoded(data.grains.fragment, Uint16Array), tone: decoded(data.grains.tone, Uint8Array)};
   const cracks = {place: decoded(data.cracks.place, Uint16Array), normal: decoded(data.cracks.normal, Int8Array),
-                  row: decoded(data.cracks.row, Uint16Array), joint: decoded(data.cracks.joint, Uint32Array)};
+                  row: decoded(data.cracks.row, Uint16Array), joint: decoded(data.cracks.joint, Uint32Array), open: decoded(data.cracks.open, Uint16Array)};
   const nGrains = grains.fragment.length;
   const nCracks = cracks.row.length;
   const coordinate = (place, k, axis) => data.low[axis] + (data.span * place[4 * k + axis]) / shares; // [mm]
@@ -258,7 +258,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
   // Single grains that flew off, or are pressed by a platen, would leave one colour for all others.
   const quantile = values => {
     let found = 0;
-    return () => (found ||= values().sort()[Math.floor(0.98 * (nGrains - 1))] || 1);
+    return () => (found ||= values().sort().findLast((value, k, all) => k <= 0.98 * (all.length - 1)) || 1);
   };
   const typicalMotion = quantile(() => Float32Array.from({length: nGrains}, (none, k) => movedBy(k)));
   const sizes = new Map();
@@ -277,11 +277,14 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     displacement: k => onRamp(movedBy(k) / typicalMotion()),
     stress: k => onRamp(0.5 + (0.5 * stressOf(k)) / typicalStress(), bothWays),
   };
+  const openBy = k => (cracks.open[k] * data.cracks.most_open) / shares; // [µm]
+  const typicalOpening = quantile(() => Float32Array.from(cracks.open, (none, k) => openBy(k)));
   const isShear = k => cracks.normal[4 * k + 3] === 1;
   const ofKind = k => kindTones[cracks.normal[4 * k + 3]];
   const crackColours = {
     kind: ofKind,
     strain: k => onRamp(cracks.row[k] / (data.rows.length - 1)),
+    opening: k => onRamp(openBy(k) / typicalOpening()),
     tension: k => (isShear(k) ? null : ofKind(k)),
     shear: k => (isShear(k) ? ofKind(k) : null),
   };
@@ -463,7 +466,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
         (grains.fragment[k] ? `fragment ${grains.fragment[k]} of ${sizes.get(grains.fragment[k])} grains.` : "in the largest piece."));
     else
       tell(`Crack ${k * data.cracks.every + 1}, ${isShear(k) ? "shear" : "tension"}, of joint ${cracks.joint[k]} at ${millimetres(cracks.place, k)}: ` +
-        `size ${digits((cracks.place[4 * k + 3] / shares) * data.size)} mm, ${data.strain} ${digits(data.rows[cracks.row[k]][0])}.`);
+        `size ${digits((cracks.place[4 * k + 3] / shares) * data.size)} mm, ${data.strain} ${digits(data.rows[cracks.row[k]][0])}, opening at the end ${digits(openBy(k))} µm.`);
     draw();
   };
   const pick = (x, y) => {
@@ -578,7 +581,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     return [canvas.clientWidth / 2 + set.pan[0] + x, canvas.clientHeight / 2 - set.pan[1] - y];
   };
   return {
-    draw, colour, view, whole, enlarge, course, typicalMotion, typicalStress,
+    draw, colour, view, whole, enlarge, course, typicalMotion, typicalStress, typicalOpening,
     hasStress: grains.stress.length > 0,
     hasMinerals: grains.tone.length > 0,
     // Shows the last row up to a share of the strain at the peak. Returns the row.
@@ -588,6 +591,10 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
         ++shown;
       draw();
       return data.rows[shown];
+    },
+    showRow(row) {
+      shown = Math.min(row, data.rows.length - 1);
+      draw();
     },
     end() {
       watch.disconnect();

@@ -88,9 +88,6 @@ inline constexpr std::array calibration_figures{pair_picture};
 /// The stress–strain curve and the crack maps of every test.
 Pictures single_test_pictures(const Series& series);
 
-/// Curves above, crack maps below, of the first specimen; of the confinements the lowest and the highest.
-Pictures overview_picture(const Series& series);
-
 /// The pictures of all functions of a list.
 template <typename Figures, typename... Arguments>
 Pictures pictures_of(const Figures& figures, const Arguments&... arguments)

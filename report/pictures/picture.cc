@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <array>
 #include <atomic>
 #include <fstream>
 #include <iterator>
@@ -41,9 +40,6 @@ std::vector<std::pair<std::string, std::string>> outputs(const Picture& picture)
 /// The script as a file of its own that leaves its pictures in the folder it is run in.
 std::string whole_script(const Picture& picture)
 {
-  if (!picture.scene.empty())
-    return fmt::format("output = \"{}.png\"\nsize = ({}, {})\n{}", picture.name, picture.width, picture.height,
-                       picture.scene);
   const std::string commands = picture.script();
   std::string script = "set encoding utf8\n";
   for (const auto& [ending, terminal] : outputs(picture))
@@ -68,11 +64,9 @@ void take_date_out(const std::filesystem::path& pdf)
   file.write(of_no_day.data(), std::streamsize(of_no_day.size()));
 }
 
-/// Flag of each of the two programs that draw: it did not end in time.
-using Hung = std::array<std::atomic<bool>, 2>;
-
 std::string draw_one(const Picture& picture, const std::filesystem::path& folder,
-                     const std::chrono::milliseconds longest, const std::function<bool()>& is_over, Hung& hung)
+                     const std::chrono::milliseconds longest, const std::function<bool()>& is_over,
+                     std::atomic<bool>& has_hung)
 {
   const auto called_off = [&] {
     return fmt::format("{} was not drawn: the run was asked to end before; {} with its folder draws all", picture.name,
@@ -80,35 +74,27 @@ std::string draw_one(const Picture& picture, const std::filesystem::path& folder
   };
   if (!is_plain_name(picture.name))
     throw std::logic_error("a picture is named " + in_quotes(picture.name));
-  const bool by_vtk = !picture.scene.empty();
-  const std::string script = picture.name + (by_vtk ? ".py" : ".gp");
+  const std::string script = picture.name + ".gp";
   write_whole_file(folder / script, whole_script(picture));
   if (is_over())
     return called_off();
-  auto& has_hung = hung[by_vtk];
   if (has_hung)
-    return fmt::format("{} was not drawn: {} did not end with another picture", picture.name,
-                       by_vtk ? "VTK" : "gnuplot");
-  // Debian's Python: another that comes first in the path lacks Debian's modules. Isolated (-I), for it would rather
-  // import a vtk.py that lies in the folder; gnuplot without the user's own settings (-d), which are commands too.
+    return fmt::format("{} was not drawn: gnuplot did not end with another picture", picture.name);
+  // Without the user's own settings (-d), which are commands too.
   for (const auto& [ending, terminal] : outputs(picture))
     make_way_for(folder / (picture.name + ending));
-  const ProgramEnd end = run_program(by_vtk ? std::vector<std::string>{"/usr/bin/python3", "-I", script}
-                                            : std::vector<std::string>{"gnuplot", "-d", script},
-                                     folder, longest, is_over);
+  const ProgramEnd end = run_program({"gnuplot", "-d", script}, folder, longest, is_over);
   if (end == ProgramEnd::called_off)
     return called_off();
   if (end == ProgramEnd::hung)
     {
       has_hung = true;
-      return fmt::format("{} was not drawn: {} did not end within {} s", picture.name, by_vtk ? "VTK" : "gnuplot",
+      return fmt::format("{} was not drawn: gnuplot did not end within {} s", picture.name,
                          std::chrono::duration<double>(longest).count());
     }
   for (const auto& [ending, terminal] : outputs(picture))
     if (end == ProgramEnd::failed || !std::filesystem::exists(folder / (picture.name + ending)))
-      return fmt::format("{} was not drawn: {} installed?", picture.name + ending,
-                         by_vtk ? "are VTK and Xvfb (packages python3-vtk9 and xvfb)"
-                                : "is gnuplot (package gnuplot-nox)");
+      return fmt::format("{} was not drawn: is gnuplot (package gnuplot-nox) installed?", picture.name + ending);
     else if (ending == ".pdf")
       take_date_out(folder / (picture.name + ending));
   return "";
@@ -119,18 +105,19 @@ std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::f
                               const std::chrono::milliseconds longest, const DrawingWatch& watch)
 {
   std::vector<std::string> problems(pictures.size());
-  Hung hung{};
+  std::atomic<bool> has_hung = false;
   std::mutex hearing;
   std::size_t n_done = 0;
   tbb::parallel_for(std::size_t(0), pictures.size(), [&](const std::size_t k) {
-    problems[k] = draw_one(pictures[k], folder, longest, watch.is_over, hung);
+    if (pictures[k].body.empty())
+      problems[k] = draw_one(pictures[k], folder, longest, watch.is_over, has_hung);
     const std::lock_guard lock(hearing);
     watch.hear(++n_done, pictures.size());
   });
   return problems;
 }
 
-std::string Picture::script() const { return scene.empty() ? gnuplot_script(panels, columns, width) : scene; }
+std::string Picture::script() const { return gnuplot_script(panels, columns, width); }
 
 std::string Picture::live() const
 {

@@ -23,14 +23,14 @@ struct Picture
   bool vector = true;  ///< drawn as SVG and PDF
   std::vector<Chart> panels = {};
   int columns = 1;               ///< of panels
-  std::string scene = {};        ///< in the place of panels a body in space: a script for Python with VTK; PNG only
+  std::string body = {};         ///< in the place of panels a body in space, which the viewer draws: JSON; PNG only
   std::string story = {};        ///< what the page's script shows in its place, JSON; empty: the chart, if it can
   std::string live_caption = {}; ///< of what is shown in its place; empty: the same caption
 
   /// The file that is shown.
   std::string shown_file() const { return name + (raster ? ".png" : ".svg"); }
 
-  /// Script with the data and the commands that draw them.
+  /// Script for gnuplot with the data and the commands that draw them.
   std::string script() const;
 
   /// Returns the JSON that the page's script shows in place of the picture; empty: only the picture.
@@ -48,7 +48,7 @@ struct DrawingWatch
 
 /// Draws pictures into a folder that exists, several at a time; the script of each stays beside it, for whoever wants
 /// it drawn otherwise: run there, it draws into the folder it is run in. A program that takes longer than `longest` for a
-/// picture is ended, and draws no other. Once watch.is_over() says so no other is begun and those that are being drawn are
+/// picture is ended, and draws no other. Bodies in space are left to PictureBook (report/page/picture_book.h). Once watch.is_over() says so no other is begun and those that are being drawn are
 /// ended. Returns for each why it could not be drawn, or nothing.
 std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
                               std::chrono::milliseconds longest = std::chrono::minutes(5),

@@ -5,6 +5,7 @@
 #include "report/pictures/plot_style.h"
 #include "report/pictures/rves.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -55,26 +56,59 @@ std::string sample_data(const FinishedTest& test, const SampleView& view, const 
 {
   if (pieces.size() > most_cells)
     return "";
-  const SampleFields& fields = test.appearance.fields;
+  const TestAppearance& appearance = test.appearance;
+  const TestRecord& record = test.record;
   Json cells = Json::array();
   for (const SamplePiece& piece : pieces)
-    cells.push_back({{"cell", fields.of_each_cell.at("cell")[piece.cell]},
-                     {"rest", corners_of(piece.rest)},
-                     {"moved", corners_of(piece.moved)}});
+    cells.push_back(
+      {{"cell", appearance.fields.of_each_cell.at("cell")[piece.cell]}, {"rest", corners_of(piece.rest)}});
+  // Fields that belong to a row of the curve; the last ones in any case.
+  std::vector<const SampleFields*> all_times;
+  for (const SampleFields& earlier : appearance.fields_before)
+    if (earlier.n_rows > 0 && earlier.n_rows < record.curve.size())
+      all_times.push_back(&earlier);
+  all_times.push_back(&appearance.fields);
+  Json times = Json::array();
+  for (const SampleFields* const fields : all_times)
+    {
+      std::string title = "the end";
+      if (fields->n_rows > 0 && fields->n_rows <= record.curve.size())
+        {
+          const CurveSample& row = record.curve[fields->n_rows - 1];
+          title = fmt::format("{} {:.3g}·10⁻³, {:.4g} MPa", record.kind.channel.strain_name,
+                              record.kind.strain(row) / milli, record.kind.stress(row) / mega);
+        }
+      Json moved = Json::array();
+      for (const SamplePiece& piece : SampleView(*fields, scale).pieces())
+        moved.push_back(corners_of(piece.moved));
+      times.push_back({{"title", title}, {"moved", std::move(moved)}});
+    }
   Json all = Json::array();
-  for (const auto& [field, values] : fields.of_each_cell)
+  for (const auto& [field, last_values] : appearance.fields.of_each_cell)
     if (field != "cell")
       {
         const FieldTitle title = title_of(field);
-        Json of_pieces = Json::array();
-        for (const SamplePiece& piece : pieces)
-          of_pieces.push_back(live::number(values[piece.cell] / title.size, 4));
-        all.push_back({{"field", field}, {"name", title.name}, {"unit", title.unit}, {"values", std::move(of_pieces)}});
+        Json values = Json::array(); // of each time
+        for (const SampleFields* const fields : all_times)
+          {
+            const auto found = fields->of_each_cell.find(field);
+            Json of_pieces = Json::array();
+            for (const SamplePiece& piece : pieces)
+              of_pieces.push_back(found == fields->of_each_cell.end()
+                                    ? Json()
+                                    : live::number(found->second.at(piece.cell) / title.size, 4));
+            values.push_back(std::move(of_pieces));
+          }
+        all.push_back({{"field", field}, {"name", title.name}, {"unit", title.unit}, {"values", std::move(values)}});
       }
   Json marks = Json::array();
-  for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)
-    marks.push_back({{"letter", letter_of_rve(k)}, {"at", corners_of({view.place(test.appearance.rves[k])})}});
-  return live::text(
-    {{"what", "sample"}, {"scale", live::number(scale)}, {"cells", cells}, {"fields", all}, {"marks", marks}});
+  for (std::size_t k = 0; k < appearance.rves.size(); ++k)
+    marks.push_back({{"letter", letter_of_rve(k)}, {"at", corners_of({view.place(appearance.rves[k])})}});
+  return live::text({{"what", "sample"},
+                     {"scale", live::number(scale)},
+                     {"cells", cells},
+                     {"times", times},
+                     {"fields", all},
+                     {"marks", marks}});
 }
 } // namespace feldspar

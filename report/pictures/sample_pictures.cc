@@ -197,8 +197,8 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
      .vector = pieces.size() <= 3000,
      .panels = {std::move(chart)},
      .story = sample_data(test, view, pieces, scale),
-     .live_caption = fmt::format("{}, seed {}: the cells of the sample at the end, coloured by one of their fields{}",
-                                 title, test.record.seed,
-                                 test.appearance.rves.empty() ? "" : "; letters: the representative volumes below")}};
+     .live_caption = fmt::format(
+       "{}, seed {}: the cells of the sample, coloured by one of their fields; displacements drawn {:g} times{}", title,
+       test.record.seed, scale, test.appearance.rves.empty() ? "" : "; letters: the representative volumes below")}};
 }
 } // namespace feldspar

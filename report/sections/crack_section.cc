@@ -1,6 +1,7 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
+#include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/maps/specimen_data.h"
 #include "results/folder/result_folder.h"
@@ -57,6 +58,7 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
       std::vector<Picture> maps;
       std::vector<Picture> fragments;
       ShownTogether together;
+      const std::vector<ConfinedCurves> curves = confined_curves(series);
       for (const auto& group : shown(groups_of(series)))
         if (const auto* test = typical(group))
           {
@@ -64,7 +66,11 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
             const std::size_t n_cracks = test->record.cracks.size();
             if (!test->appearance.grains_at_end.empty() && n_cracks > 0 && together.tests.size() < most_specimens)
               {
-                together.tests.push_back({test, fmt::format("{}, seed {}", group.title(), test->record.seed)});
+                const auto curve = std::find_if(curves.begin(), curves.end(), [&](const ConfinedCurves& one) {
+                  return one.group.title() == group.title();
+                });
+                together.tests.push_back({test, fmt::format("{}, seed {}", group.title(), test->record.seed),
+                                          curve == curves.end() ? "" : curve->colour});
                 if (n_cracks > together.n_cracks)
                   {
                     together.map = maps.size();

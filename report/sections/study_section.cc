@@ -123,9 +123,9 @@ std::string headline_of(const std::vector<StudiedEntry>& entries)
       {
         const std::string along = fmt::format("{}", entry.over.along.empty() ? "" : " and what goes along with it");
         words += words.empty() ? "" : "; ";
-        words += effect->reach() < least_change
-                   ? fmt::format("{}{} has no effect", entry.name(), along)
-                   : fmt::format("{}{} from {}: {}", entry.name(), along, entry.range(), as_cell(entry, *effect));
+        words += effect->reach() < least_change ? fmt::format("{}{} has no effect", entry.name(), along)
+                                                : fmt::format("with {}{} from {} it goes from {}", entry.name(), along,
+                                                              entry.range(), as_cell(entry, *effect));
       }
   return fmt::format("{}, {}: {}.", first.test, with_unit(first.result.title, first.result.unit), words);
 }

@@ -34,7 +34,7 @@ std::string caveat(const ComparisonRow& row)
 /// Unit behind a number, with its space.
 std::string behind_number(const std::string& unit)
 {
-  return unit.empty() ? "" : unit == "deg" ? "°" : unit == "1e-3" ? " · 10⁻³" : " " + unit;
+  return unit.empty() ? "" : unit == "deg" ? "°" : unit == "1e-3" ? " · 10⁻³" : unit == "1e-4" ? " · 10⁻⁴" : " " + unit;
 }
 
 /// Tile of a result, beside the experiment where it has the property.
@@ -92,8 +92,7 @@ std::string subject_of(const std::vector<std::string>& properties, const char* c
 Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference,
                 const std::string& reason_for_no_reference)
 {
-  std::vector<const ComparisonRow*> in, out;
-  std::size_t n_open = 0;
+  std::vector<const ComparisonRow*> in, out, open; // of properties without a range
   double largest_without_range = 0.0;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   Verdict result;
@@ -104,7 +103,8 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Refe
         fewest = std::min(fewest, row.ours->n);
         if (row.in_range())
           (*row.in_range() ? in : out).push_back(&row);
-        n_open += !row.in_range();
+        if (!row.in_range())
+          open.push_back(&row);
         const double deviation = row.in_range() ? 0.0 : row.deviation().value_or(0.0);
         if (std::abs(deviation) > std::abs(largest_without_range))
           largest_without_range = deviation;
@@ -132,9 +132,11 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Refe
     result.headline =
       "No. " + subject(out, "is outside the measured range", "are outside the measured ranges") + specimens +
       (in.empty() ? "" : fmt::format("; {} of {} properties lie within", in.size(), in.size() + out.size())) + ".";
-  if (n_open > 0 && !(in.empty() && out.empty()))
-    result.headline += fmt::format(" {} without a range {} by up to {}.", n_open, n_open == 1 ? "deviates" : "deviate",
-                                   text::signed_percent(largest_without_range));
+  if (!open.empty() && !(in.empty() && out.empty()))
+    result.headline += fmt::format(
+      " {} {}.",
+      subject(open, "is given without a range and deviates by", "are given without a range and deviate by up to"),
+      text::signed_percent(largest_without_range));
   result.points = sentences_on_missing(rows, reference);
   return result;
 }

@@ -337,8 +337,12 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
         });
       else if (std::filesystem::exists(folder / result_file::fields /
                                        (test.name + ".xdmf"))) // large: may be thrown away
-        try_to(of_tables,
-               [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
+        try_to(of_tables, [&] {
+          constexpr std::size_t most_cells = 20'000; // of all times; the page has some 200 bytes for each
+          test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name);
+          test.appearance.fields_before =
+            read_earlier_sample_fields(folder / result_file::fields, test.name, most_cells);
+        });
     }
   std::multimap<std::string_view, FinishedTest*> by_name;
   for (auto& test : tests)

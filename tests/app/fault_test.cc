@@ -352,7 +352,7 @@ TEST(Fault, NeedsNoHomeAndNoFolderForTemporaryFiles)
                                     "env --unset=HOME --unset=USER TMPDIR=/nowhere TMP=/nowhere");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(outcome.error, "");
-  EXPECT_TRUE(fs::exists(folder.path() / "out/figures/overview.png"));
+  EXPECT_TRUE(fs::exists(folder.path() / "out/figures/direct_tension_stress.svg"));
 }
 
 TEST(Fault, AGnuplotThatFailsLeavesTheReportItsWords)
@@ -394,7 +394,7 @@ TEST(Fault, AnInterruptedRunDoesNotWaitForItsPictures)
   // Taken up it draws, and has nothing else to do.
   EXPECT_EQ(run_feldspar(folder.path(), "lab --resume out --quiet").exit_code, 0);
   EXPECT_EQ(content(folder.path() / "out/report.html").find("was not drawn"), std::string::npos);
-  EXPECT_TRUE(fs::exists(folder.path() / "out/figures/overview.png"));
+  EXPECT_TRUE(fs::exists(folder.path() / "out/figures/direct_tension_stress.svg"));
 }
 
 // In genesis, in a test, at a checkpoint (there is one every few steps) or at the report, as it falls; then again in the run

@@ -375,14 +375,15 @@ TEST(Links, LeadNoWriterOutOfTheFolder)
   for (const char* const file : {"report.html", "report.html.unfinished", ".feldspar-files.unfinished"})
     link("../victim.txt", file);
   for (const char* const file :
-       {"figures/overview.gp", "figures/overview.gp.unfinished", "figures/overview.png",
-        "figures/direct_tension_stress.svg", "figures/direct_tension_stress.pdf", "tables/strengths.csv"})
+       {"figures/direct_tension_seed_1_cracks.gp", "figures/direct_tension_seed_1_cracks.gp.unfinished",
+        "figures/direct_tension_seed_1_cracks.png", "figures/direct_tension_stress.svg",
+        "figures/direct_tension_stress.pdf", "tables/strengths.csv"})
     link("../../victim.txt", file);
   const Outcome report = run_feldspar(folder.path(), "report out --quiet");
   EXPECT_EQ(report.exit_code, 0) << report.error;
   EXPECT_EQ(content(folder.path() / "victim.txt"), "precious");
-  for (const char* const file :
-       {"report.html", "figures/overview.png", "figures/direct_tension_stress.svg", "tables/strengths.csv"})
+  for (const char* const file : {"report.html", "figures/direct_tension_seed_1_cracks.png",
+                                 "figures/direct_tension_stress.svg", "tables/strengths.csv"})
     EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(out / file))) << file;
 
   // A resumed run writes tables, fields and its record.

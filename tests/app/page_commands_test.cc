@@ -72,6 +72,10 @@ end
 END
 )",
     {}}},
+  {"README.md",
+   {R"(sed -n '/^```text core.csv/,/^```$/p' docs/laboratory-data.md | grep -v '^```' > core.csv
+)",
+    settings_of_a_small_rock}},
   {"docs/report.md",
    {R"(feldspar lab examples/first-run/granite.prm --output granite
 cp -r granite slate

@@ -443,7 +443,8 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   };
   holds(
     said(granite(120.0, 130.0), ""),
-    {"Yes. Uniaxial compressive strength lies within the measured range (3 specimens). 1 without a range deviates by",
+    {"Yes. Uniaxial compressive strength lies within the measured range (3 specimens). Young's modulus is given without a "
+     "range and deviates by",
      "uniaxial compressive strength: 126.0 ± 6.0 MPa, n = 3; experiment 125.0", "+0.8 %",
      "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range", "Young's modulus"});
   holds(said(granite(127.0, 130.0), ""), {"No. Uniaxial compressive strength is outside the measured range",
@@ -1373,8 +1374,9 @@ TEST(Report, OfAStudyBeginsWithItsEffectsAndItsMap)
   ASSERT_NE(study, std::string::npos);
   EXPECT_EQ(page.find("<section "), study) << "the page begins elsewhere";
   EXPECT_NE(
-    page.find("Uniaxial compression, strength [MPa]: Friction from 0.2 to 0.5: 100 to 150 (+50.0 %); Modulus has no "
-              "effect."),
+    page.find(
+      "Uniaxial compression, strength [MPa]: with Friction from 0.2 to 0.5 it goes from 100 to 150 (+50.0 %); Modulus has no "
+      "effect."),
     std::string::npos);
   const std::size_t map = page.find("over Flat joint/Friction and Flat joint/Modulus: mean over the seeds");
   EXPECT_LT(page.find("<div class=\"beside\">", study), map);
@@ -1399,7 +1401,8 @@ TEST(Report, OfOneEntrySaysWhereAResultIsHighestBetweenItsEnds)
       all[k].tests.front().settings = {{"Flat joint/Modulus", moduli[k]}};
       all[k].tests.front().results.peak_stress = {k == 1 ? 130e6 : 100e6, ""};
     }
-  EXPECT_NE(page_of(all).find("strength [MPa]: Modulus from 50 to 70 GPa: 100 to 100 (+0.0 %); 130 at 60 GPa."),
+  EXPECT_NE(page_of(all).find(
+              "strength [MPa]: with Modulus from 50 to 70 GPa it goes from 100 to 100 (+0.0 %); 130 at 60 GPa."),
             std::string::npos);
 }
 
@@ -1765,7 +1768,43 @@ TEST(SpecimenData, GivesEachCrackTheRowByWhichItIsThere)
 
   FinishedTest without = test;
   without.record.cracks.clear();
+  EXPECT_EQ(data_of(without)["cracks"]["every"], 1);
+  without.appearance.grains_at_end.clear();
   EXPECT_EQ(specimen_data({{&without, "rock"}}), "");
+}
+
+TEST(SpecimenData, NamesTheRowsOfThePictureForPaper)
+{
+  const auto json = data_of(compression(1));
+  ASSERT_EQ(json["stages"].size(), 3u);
+  EXPECT_EQ(json["stages"][0][0], "crack initiation");
+  EXPECT_LT(json["stages"][0][1], 20);
+  EXPECT_EQ(json["stages"][1], nlohmann::json::parse(R"(["peak", 20])"));
+  EXPECT_EQ(json["stages"][2], nlohmann::json::parse(R"(["end", 30])"));
+}
+
+TEST(SpecimenData, MeasuresTheOpeningOfACrackByItsTwoGrains)
+{
+  // Two grains of 1 mm to both sides of a crack, which parts them by 30 µm; a third one far off moves more.
+  FinishedTest test = compression(1);
+  test.appearance.grains_at_end = {{{0.010, 0.0, 0.0}, {0.010, 0.0, 0.0}, 0.001, 0},
+                                   {{0.012, 0.0, 0.0}, {0.01203, 5e-4, 0.0}, 0.001, 0},
+                                   {{0.016, 0.0, 0.0}, {0.017, 0.0, 0.0}, 0.001, 0}};
+  Crack crack{};
+  crack.centroid = {0.011, 2e-4, 0.0};
+  crack.normal = {1.0, 0.0, 0.0};
+  crack.size = 2e-4;
+  Crack turned = crack, sliding = crack, alone = crack;
+  turned.normal = {-1.0, 0.0, 0.0};
+  sliding.normal = {0.0, -1.0, 0.0}; // both grains lie on one line with it: closed
+  alone.centroid = {0.05, 0.0, 0.0};
+  test.record.cracks = {crack, turned, sliding, alone};
+  const auto json = data_of(test)["cracks"];
+  EXPECT_NEAR(json["most_open"], 30.0, 1e-3);
+  const auto open = numbers_in(json["open"], 2);
+  EXPECT_EQ(open[0], 65535u);
+  EXPECT_EQ(open[1], 65535u);
+  EXPECT_EQ(open[3], 0u);
 }
 
 TEST(SpecimenData, OfManyGrainsKeepsSomeSoThatAPageStaysSmall)

@@ -135,12 +135,33 @@ TEST(SamplePicture, HasEveryFieldOfItsCellsForThePage)
   EXPECT_EQ(json["what"], "sample");
   EXPECT_EQ(json["scale"], 10.0);
   ASSERT_EQ(json["cells"].size(), 4u);
-  EXPECT_EQ(json["cells"][3]["rest"], nlohmann::json::parse("[10, 10, 20, 10, 20, 20, 10, 20]"));      // mm
-  EXPECT_EQ(json["cells"][3]["moved"], nlohmann::json::parse("[10, 10.5, 20, 10.5, 20, 21, 10, 21]")); // 10 times
+  EXPECT_EQ(json["cells"][3]["rest"], nlohmann::json::parse("[10, 10, 20, 10, 20, 20, 10, 20]")); // mm
+  ASSERT_EQ(json["times"].size(), 1u);
+  EXPECT_EQ(json["times"][0]["moved"][3], nlohmann::json::parse("[10, 10.5, 20, 10.5, 20, 21, 10, 21]")); // 10 times
   EXPECT_EQ(json["fields"][0], nlohmann::json::parse(R"({"field": "broken_segments_share", "name": "broken segments",
-    "unit": "%", "values": [0, 1, 2, 3]})"));
+    "unit": "%", "values": [[0, 1, 2, 3]]})"));
   EXPECT_EQ(json["fields"][1]["name"], "stress xx");
-  EXPECT_EQ(json["fields"][1]["values"][0], 1.0); // MPa
+  EXPECT_EQ(json["fields"][1]["values"][0][0], 1.0); // MPa
+}
+
+TEST(SamplePicture, HasItsFieldsAtEachTimeThatBelongsToARow)
+{
+  auto test = test_with(blocks(2));
+  SampleFields earlier = blocks(2);
+  for (auto& displacement : earlier.displacement)
+    displacement = {};
+  earlier.of_each_cell["broken_segments_share"] = {0.0, 0.0, 0.0, 0.005};
+  earlier.n_rows = 11;
+  SampleFields of_older_curve = earlier;
+  of_older_curve.n_rows = 100;
+  test.appearance.fields_before = {earlier, of_older_curve};
+  test.record.curve[10].axial_strain = 2e-4;
+  test.record.curve[10].axial_stress = 9.5e6;
+  const auto json = nlohmann::json::parse(sample_picture(test, "Direct tension").at(0).live());
+  ASSERT_EQ(json["times"].size(), 2u);
+  EXPECT_EQ(json["times"][0]["title"], "axial strain 0.2·10⁻³, 9.5 MPa");
+  EXPECT_EQ(json["times"][0]["moved"][3], json["cells"][3]["rest"]);
+  EXPECT_EQ(json["fields"][0]["values"], nlohmann::json::parse("[[0, 0, 0, 0.5], [0, 1, 2, 3]]"));
 }
 
 TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)

@@ -25,7 +25,7 @@ SetUpTest<dim> set_up_own_loading(Specimen<dim> specimen, double /*confining_pre
   if (stages.empty())
     throw ParameterError(parameter_id<&LoadingTable::file>(), "is missing; own_loading follows its stages");
   const LoadingStage& first = stages.front();
-  const double pressure_at_start = first.confining_pressure;
+  const double pressure_at_start = wanted.of<LoadingTable>().pressure_at_start.value_or(first.confining_pressure);
   double fastest = 0.0;
   for (const LoadingStage& stage : stages)
     fastest = std::max(fastest, stage.lateral_strain ? own.strain_rate : stage.strain_rate.value_or(own.strain_rate));

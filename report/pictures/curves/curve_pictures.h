@@ -47,6 +47,16 @@ void add_mean(Chart& chart, ChartSeries mean, const std::vector<std::array<doubl
 std::vector<Picture> curve_picture(Chart chart, const SameTests& same, const std::string& ending,
                                    const std::string& caption, const std::string& alternative);
 
+/// The curves in compression under one pressure, and their colour wherever they are drawn together.
+struct ConfinedCurves
+{
+  TestGroup group;
+  std::string colour;
+};
+
+/// Returns those of a series that have curves, by rising pressure.
+std::vector<ConfinedCurves> confined_curves(const Series& series);
+
 /// The pictures of one test of the programme: the tests of one kind and pressure.
 struct GroupPictures
 {

@@ -146,25 +146,33 @@ Pictures stress_picture(const SameTests& same)
                        what + " in " + same.front().group.title() + ".");
 }
 
-Pictures compression_curves(const SeriesAmong& of)
+std::vector<ConfinedCurves> confined_curves(const Series& series)
 {
-  // From light to dark, as the confinement rises.
-  constexpr std::array tones{"#8fbcbb", "#56b4e9", "#0072b2", "#332288", "#882255", "#cc6677", "#e69f00", "#999933"};
-  Chart chart{.x = {.label = "axial strain [10⁻³], shortening positive", .from = 0.0},
-              .y = {.label = "axial stress [MPa]", .from = 0.0},
-              .key_columns = 2};
-  SameTests drawn;
-  for (const TestGroup& group : groups_of(of.series()))
+  // From light to dark, as the confinement rises; the orange and the blue of cracks stand beside them.
+  constexpr std::array tones{"#d4a6c8", "#b06fb0", "#8446a0", "#332288", "#882255", "#cc6677", "#999933", "#665c00"};
+  std::vector<ConfinedCurves> all;
+  for (TestGroup& group : groups_of(series))
     if (group.envelope_role() == EnvelopeRole::compression && group.kind.has_uniform_stress &&
         !group.kind.follows_stages &&
         std::none_of(group.tests.begin(), group.tests.end(),
                      [](const FinishedTest* test) { return test->record.curve.empty(); }))
-      {
-        drawn.push_back({&of.series(), of.n, group});
-        add_stress_curve(
-          chart, drawn.back(), [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1, group.title(),
-          tones[(drawn.size() - 1) % tones.size()]);
-      }
+      all.push_back({std::move(group), tones[all.size() % tones.size()]});
+  return all;
+}
+
+Pictures compression_curves(const SeriesAmong& of)
+{
+  Chart chart{.x = {.label = "axial strain [10⁻³], shortening positive", .from = 0.0},
+              .y = {.label = "axial stress [MPa]", .from = 0.0},
+              .key_columns = 2};
+  SameTests drawn;
+  for (const ConfinedCurves& one : confined_curves(of.series()))
+    {
+      drawn.push_back({&of.series(), of.n, one.group});
+      add_stress_curve(
+        chart, drawn.back(), [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1, one.group.title(),
+        one.colour);
+    }
   if (drawn.size() < 2)
     return {};
   std::erase_if(chart.series,

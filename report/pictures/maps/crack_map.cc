@@ -3,56 +3,28 @@
 #include "report/pictures/figures.h"
 #include "report/pictures/maps/group_colour.h"
 #include "report/pictures/maps/map.h"
+#include "report/pictures/maps/parted_grains.h"
+#include "report/pictures/maps/specimen_data.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <map>
 #include <utility>
 
 namespace feldspar
 {
 namespace
 {
-/// Cracks where they came to: moved as the two grains whose surfaces were the nearest moved on the mean.
+/// Cracks where they came to: moved as the two grains that they part moved on the mean.
 std::vector<Crack> carried(const FinishedTest& test)
 {
   std::vector<Crack> cracks = test.record.cracks;
-  std::map<std::uint64_t, std::array<double, 3>> of_joints;
+  const PartedGrains grains(test.appearance.grains_at_end);
   for (Crack& crack : cracks)
-    {
-      auto found = of_joints.find(crack.joint);
-      if (found == of_joints.end())
-        {
-          std::array<std::pair<double, const GrainPicture*>, 2> nearest{
-            std::pair{std::numeric_limits<double>::infinity(), nullptr},
-            std::pair{std::numeric_limits<double>::infinity(), nullptr}};
-          for (const auto& grain : test.appearance.grains_at_end)
-            {
-              const double distance = std::hypot(grain.start[0] - crack.centroid[0], grain.start[1] - crack.centroid[1],
-                                                 grain.start[2] - crack.centroid[2]) -
-                                      grain.radius;
-              if (distance < nearest[0].first)
-                {
-                  nearest[1] = nearest[0];
-                  nearest[0] = {distance, &grain};
-                }
-              else if (distance < nearest[1].first)
-                nearest[1] = {distance, &grain};
-            }
-          std::array<double, 3> moved{};
-          for (const auto& [distance, grain] : nearest)
-            for (std::size_t c = 0; c < 3 && grain != nullptr; ++c)
-              moved[c] += 0.5 * (grain->position[c] - grain->start[c]);
-          found = of_joints.emplace(crack.joint, moved).first;
-        }
-      for (std::size_t c = 0; c < 3; ++c)
-        crack.centroid[c] += found->second[c];
-    }
+    for (const GrainPicture* grain : grains.of(crack))
+      for (std::size_t c = 0; c < 3 && grain != nullptr; ++c)
+        crack.centroid[c] += 0.5 * (grain->position[c] - grain->start[c]);
   return cracks;
 }
 
@@ -76,17 +48,29 @@ void add_numbers(Chart& chart, const std::vector<Crack>& cracks, const std::size
 }
 } // namespace
 
-Pictures crack_map(const FinishedTest& whole, const std::string& title)
+Pictures crack_map(const FinishedTest& test, const std::string& title)
 {
-  if (whole.record.body == TestBody::finite_elements)
-    return damage_map(whole, title);
-  const FinishedTest test = cut_open(whole);
+  if (test.record.body == TestBody::finite_elements)
+    return damage_map(test, title);
   const TestRecord& record = test.record;
   const auto& grains = test.appearance.grains_at_end;
   if (grains.empty() || record.curve.empty())
     return {};
   const std::size_t axis = vertical_axis(record);
   const auto all_stages = map_stages(record);
+  const std::string alternative =
+    fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.", title, seed_of(test),
+                test.results.n_tension_cracks, test.results.n_shear_cracks);
+  if (record.dimension() == 3)
+    return {{.name = test.name + "_cracks",
+             .caption = fmt::format("{}, {}: cracks {}, on the half behind the mid-plane", title, seed_of(test),
+                                    in_words(all_stages)),
+             .alternative = alternative,
+             .width = 300 * int(all_stages.size()),
+             .height = 600,
+             .raster = true,
+             .vector = false,
+             .body = specimen_data({{&test, fmt::format("{}, {}", title, seed_of(test))}})}};
   const MapFrame map_frame = map_frame_of(test);
   const MapLimits& frame = map_frame.frame;
   const auto colours = group_colours(grains);
@@ -116,14 +100,11 @@ Pictures crack_map(const FinishedTest& whole, const std::string& title)
   const auto [width, height] = panel_size(frame);
   const int n_panels = int(panels.size());
   const int columns = is_long(frame) ? 1 : n_panels;
-  const std::string view =
-    record.dimension() == 3 ? ", in the half behind the mid-plane, with the cracks near the cut" : "";
   return {{.name = test.name + "_cracks",
-           .caption = fmt::format("{}, {}: cracks {}{}{}{}", title, seed_of(test), in_words(all_stages), view,
+           .caption = fmt::format("{}, {}: cracks {}{}{}", title, seed_of(test), in_words(all_stages),
                                   record.cracks.empty() ? "" : "; numbers: the order in which the first joints broke",
                                   map_frame.remark()),
-           .alternative = fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.",
-                                      title, seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
+           .alternative = alternative,
            .width = width * columns,
            .height = height * (n_panels / columns),
            .raster = true,

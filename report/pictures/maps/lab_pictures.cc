@@ -1,13 +1,11 @@
 #include "base/append.h"
 #include "report/pictures/figures.h"
-#include "report/pictures/maps/map.h"
 #include "report/pictures/plot_style.h"
 #include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -57,28 +55,6 @@ Chart curve_of(const FinishedTest& test, const std::string& title, const bool is
     chart.series.push_back(std::move(shear));
   return chart;
 }
-
-/// Grains of the largest fragment and the others; cracks as the faces that broke.
-Chart map_of(const FinishedTest& test)
-{
-  const std::size_t axis = vertical_axis(test.record);
-  const auto& grains = test.appearance.grains_at_end;
-  const double width = test.record.size[0] / milli;
-  const double height = test.record.size[axis] / milli;
-  Chart chart{
-    .look = Chart::Look::map,
-    .title = with_seed(test) + ": cracks at the end",
-    .x = {.label = "x [mm]", .from = -0.08 * width, .to = 1.08 * width, .step = 10.0},
-    .y = {.label = axis == 2 ? "z [mm]" : "y [mm]", .from = -0.02 * height, .to = 1.02 * height, .step = 10.0},
-    .equal_scales = true,
-    .key_columns = 2,
-    .series = {grain_circles(grains, false, axis), grain_circles(grains, true, axis)}};
-  chart.series[0].label = "main body";
-  chart.series[1].label = "fragments";
-  append(chart.series, flaw_lines(test));
-  append(chart.series, crack_traces(test.record.cracks, axis, 2.0));
-  return chart;
-}
 } // namespace
 
 Pictures single_test_pictures(const Series& series)
@@ -103,31 +79,5 @@ Pictures single_test_pictures(const Series& series)
       append(pictures, crack_map(test, title));
     }
   return pictures;
-}
-
-Pictures overview_picture(const Series& series)
-{
-  std::vector<Chart> panels;
-  std::vector<Chart> maps;
-  for (const auto& group : shown(groups_of(series)))
-    if (const FinishedTest& test = *group.tests.front();
-        !test.record.curve.empty() && test.record.body == TestBody::grains) // maps are of grains
-      {
-        panels.push_back(curve_of(test, with_seed(test), false));
-        maps.push_back(map_of(cut_open(test)));
-      }
-  if (panels.empty())
-    return {};
-  const int n_columns = int(panels.size());
-  append(panels, std::move(maps));
-  return {{.name = "overview",
-           .caption = "Curves and crack maps of the first specimen",
-           .alternative = "Stress-strain curves above, crack maps below.",
-           .width = 620 * n_columns,
-           .height = 1250,
-           .raster = true,
-           .vector = false,
-           .panels = std::move(panels),
-           .columns = n_columns}};
 }
 } // namespace feldspar

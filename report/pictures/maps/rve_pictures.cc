@@ -17,7 +17,7 @@ using namespace plot;
 
 namespace
 {
-/// Data by which the viewer shows RVEs with cracks as tests side by side, each with the curve of the sample.
+/// Data by which the viewer shows RVEs as tests side by side, each with the curve of the sample.
 std::string viewer_data(const FinishedTest& test, const std::vector<std::string>& headings, const bool in_space)
 {
   const auto& rves = test.appearance.rves;
@@ -83,17 +83,18 @@ Pictures rve_picture(const FinishedTest& test, const std::string& title)
     "{}, seed {}: cracks of the representative volumes up to the place of the slider, on the curve of the sample",
     title, test.record.seed);
   if (in_space)
-    {
-      Picture picture = space_picture_of_rves(rves, headings);
-      picture.name = name;
-      picture.caption = caption +
+    return {{.name = name,
+             .caption = caption +
                         ". Grains behind the mid-plane, every broken element as a disc; seen from the front, a "
-                        "little from the right and from above";
-      picture.alternative = alternative;
-      picture.story = std::move(story);
-      picture.live_caption = live_caption;
-      return {picture};
-    }
+                        "little from the right and from above",
+             .alternative = alternative,
+             .width = 300 * int(rves.size()),
+             .height = 400,
+             .raster = true,
+             .vector = false,
+             .body = story,
+             .story = story,
+             .live_caption = live_caption}};
 
   double reach = 0.0; // from an RVE's point
   for (const PointRve& rve : rves)

@@ -3,6 +3,8 @@
 #include "base/prefixes.h"
 #include "report/chart/page_writer.h"
 #include "report/pictures/maps/group_colour.h"
+#include "report/pictures/maps/map.h"
+#include "report/pictures/maps/parted_grains.h"
 
 #include <nlohmann/json.hpp>
 
@@ -82,7 +84,7 @@ Cube cube_around(const TestRecord& record, const std::vector<GrainPicture>& grai
 }
 
 /// One of how many is kept.
-std::size_t stride_of(const std::size_t n, const std::size_t most) { return 1 + (n - 1) / most; }
+std::size_t stride_of(const std::size_t n, const std::size_t most) { return n > most ? 1 + (n - 1) / most : 1; }
 
 Json grain_data(const std::vector<GrainPicture>& grains, const std::size_t most, const Cube& cube,
                 const double largest_radius)
@@ -123,11 +125,28 @@ Json grain_data(const std::vector<GrainPicture>& grains, const std::size_t most,
           {"stress", stresses.text()}};
 }
 
-Json crack_data(const std::vector<Crack>& cracks, const std::vector<const CurveSample*>& rows, const Cube& cube,
-                const std::size_t most, const double largest_size)
+/// The first of the rows that is not before a step.
+std::size_t row_of(const std::uint64_t step, const std::vector<const CurveSample*>& rows)
+{
+  const auto row =
+    std::lower_bound(rows.begin(), rows.end() - 1, step,
+                     [](const CurveSample* one, const std::uint64_t its_step) { return one->step < its_step; });
+  return std::size_t(row - rows.begin());
+}
+
+Json crack_data(const std::vector<Crack>& cracks, const std::vector<GrainPicture>& grains,
+                const std::vector<const CurveSample*>& rows, const Cube& cube, const std::size_t most,
+                const double largest_size)
 {
   const std::size_t every = stride_of(cracks.size(), most);
-  Bytes places, normals, of_rows, joints;
+  const PartedGrains parted(grains);
+  std::vector<double> opening;
+  for (std::size_t k = 0; k < cracks.size(); k += every)
+    opening.push_back(parted.opening(cracks[k]));
+  const double most_open = opening.empty() ? 0.0 : std::max(*std::max_element(opening.begin(), opening.end()), 1e-12);
+  Bytes places, normals, of_rows, joints, openings;
+  for (const double one : opening)
+    openings.add_share(one / most_open);
   for (std::size_t k = 0; k < cracks.size(); k += every)
     {
       const Crack& crack = cracks[k];
@@ -136,18 +155,12 @@ Json crack_data(const std::vector<Crack>& cracks, const std::vector<const CurveS
       for (const double x : crack.normal)
         normals.add_signed(x, 1);
       normals.add(crack.kind == CrackKind::shear ? 1 : 0, 1);
-      // A crack belongs to the first of the rows that is not before it.
-      const auto row =
-        std::lower_bound(rows.begin(), rows.end() - 1, crack.step,
-                         [](const CurveSample* one, const std::uint64_t step) { return one->step < step; });
-      of_rows.add(row - rows.begin(), 2);
+      of_rows.add(std::int64_t(row_of(crack.step, rows)), 2);
       joints.add(std::int64_t(crack.joint), 4);
     }
-  return {{"every", every},
-          {"place", places.text()},
-          {"normal", normals.text()},
-          {"row", of_rows.text()},
-          {"joint", joints.text()}};
+  return {{"every", every},         {"place", places.text()}, {"normal", normals.text()},
+          {"row", of_rows.text()},  {"joint", joints.text()}, {"most_open", live::number(1e6 * most_open)},
+          {"open", openings.text()}};
 }
 
 Json flaw_data(const std::vector<FlawPicture>& flaws)
@@ -166,8 +179,7 @@ Json flaw_data(const std::vector<FlawPicture>& flaws)
 
 bool is_shown(const TitledTest& one)
 {
-  return !one.test->record.curve.empty() && !one.test->record.cracks.empty() &&
-         !one.test->appearance.grains_at_end.empty();
+  return !one.test->record.curve.empty() && !one.test->appearance.grains_at_end.empty();
 }
 
 /// One of `n` tests.
@@ -186,6 +198,10 @@ Json data_of(const TitledTest& one, const std::size_t n)
     rows.push_back({live::number(record.kind.strain(*row) / milli), live::number(record.kind.stress(*row) / mega, 4),
                     row->n_tension_cracks, row->n_shear_cracks});
 
+  Json stages = Json::array(); // which a picture shows
+  for (const MapStage& stage : map_stages(record))
+    stages.push_back({stage.title, row_of(stage.last_step, kept)});
+
   // In the order of breaking, so that those broken up to a row are the first.
   std::vector<Crack> cracks = record.cracks;
   std::stable_sort(cracks.begin(), cracks.end(),
@@ -203,6 +219,7 @@ Json data_of(const TitledTest& one, const std::size_t n)
     size = std::max(size, crack.size);
   return {
     {"title", one.title},
+    {"colour", one.colour},
     {"space", record.dimension() == 3},
     {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
     {"low", {live::number(cube.low[0] / milli), live::number(cube.low[1] / milli), live::number(cube.low[2] / milli)}},
@@ -211,9 +228,10 @@ Json data_of(const TitledTest& one, const std::size_t n)
     {"size", live::number(size / milli)},
     {"gap", live::number(record.specimen.installation_gap_ratio * mean_radius / milli)},
     {"rows", rows},
+    {"stages", stages},
     {"grains", grain_data(grains, most_grains / n, cube, radius)},
     {"flaws", flaw_data(test.appearance.flaws)},
-    {"cracks", crack_data(cracks, kept, cube, most_cracks / n, size)}};
+    {"cracks", crack_data(cracks, grains, kept, cube, most_cracks / n, size)}};
 }
 } // namespace
 

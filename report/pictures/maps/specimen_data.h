@@ -13,6 +13,7 @@ struct TitledTest
 {
   const FinishedTest* test;
   std::string title;
+  std::string colour = {}; ///< of its curve; empty: one of the viewer's own
 };
 
 /// Largest number of tests that the viewer shows side by side.
@@ -20,7 +21,7 @@ inline constexpr std::size_t most_specimens = 4;
 
 /// Grains and cracks of tests with their curves, for the viewer of the page (report/page/specimens.js): JSON with arrays in
 /// base64. Grains lie where they were when the loading began, so that a crack stands where it broke. Of more than 200 000
-/// grains, or 100 000 cracks, of all tests every second or third is kept. Tests without grains, cracks or a curve are left
-/// out; empty without any other.
+/// grains, or 100 000 cracks, of all tests every second or third is kept. Tests without grains or a curve are left out;
+/// empty without any other.
 std::string specimen_data(const std::vector<TitledTest>& tests);
 } // namespace feldspar
