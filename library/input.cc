@@ -31,14 +31,13 @@ void set_threads(const std::size_t n)
 
 double in_si(const std::string_view text, const std::string_view quantity)
 {
-  const std::map<std::string_view, Dimension> known{{"stress", feldspar::stress},
-                                                    {"length", length},
-                                                    {"angle", angle},
-                                                    {"density", density},
-                                                    {"rate", rate}};
+  const std::map<std::string_view, Dimension> known{
+    {"stress", feldspar::stress}, {"length", length}, {"angle", angle},
+    {"density", density},         {"rate", rate},     {"duration", duration}};
   const auto found = known.find(quantity);
   if (found == known.end())
-    throw Error(fmt::format("{}: no such quantity; there are stress, length, angle, density and rate", quantity));
+    throw Error(
+      fmt::format("{}: no such quantity; there are stress, length, angle, density, rate and duration", quantity));
   return guarded([&] { return parse_quantity(text, found->second); });
 }
 

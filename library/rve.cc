@@ -1,5 +1,6 @@
 #include "app/programme/checks.h"
 #include "base/byte_archive.h"
+#include "base/checksum/fingerprint.h"
 #include "coupling/rve/state_archive.h"
 #include "coupling/sample/realisation.h"
 #include "library/states.h"
@@ -9,8 +10,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <map>
+#include <mutex>
 
 namespace feldspar::v1
 {
@@ -32,10 +35,31 @@ feldspar::Input input_of_rve(const Input& input, const Specimen& specimen)
   return wanted;
 }
 
+/// A number that two cells hardly share: boundary, grains, stiffness, bonds.
+template <int dim>
+std::uint64_t fingerprint_of(const feldspar::Network<dim>& network)
+{
+  Fingerprint print;
+  const auto add = [&](const double value) { print.add(std::bit_cast<std::uint64_t>(value)); };
+  print.add(name(network.boundary()));
+  for (const Vector<dim>& position : network.positions())
+    for (const double coordinate : position)
+      add(coordinate);
+  for (const double stiffness : network.intact_stiffness().reshaped())
+    add(stiffness);
+  for (std::uint32_t segment = 0; segment < network.n_segments(); ++segment)
+    {
+      add(network.bond(segment).tensile_strength);
+      add(network.bond(segment).cohesion);
+    }
+  return print.value();
+}
+
 template <int dim>
 Network<dim> network_of(const feldspar::Specimen<dim>& specimen, const feldspar::Input& input)
 {
-  check_cell(specimen, "a representative volume");
+  if (!specimen.is_periodic())
+    throw InputError("the specimen stands between walls; a representative volume needs Specimen/Shape = periodic");
   return std::make_shared<const feldspar::Network<dim>>(specimen, Tensor<dim>::Identity(), input.boundary);
 }
 
@@ -89,7 +113,29 @@ std::size_t broken(const NetworkState<dim>& state)
 class RveState
 {
 public:
-  std::variant<Cell<2>, Cell<3>> cell;
+  using AnyCell = std::variant<Cell<2>, Cell<3>>;
+
+  explicit RveState(AnyCell of_specimen)
+    : cell(std::move(of_specimen))
+  {
+  }
+
+  /// Use by one thread at a time.
+  template <typename Use>
+  auto alone(const Use& use)
+  {
+    const std::lock_guard lock(one_at_a_time);
+    return guarded([&] { return std::visit(use, cell); });
+  }
+
+  AnyCell copied()
+  {
+    return alone([](const auto& own) { return AnyCell(own); });
+  }
+
+private:
+  AnyCell cell;
+  std::recursive_mutex one_at_a_time; // a signal's handler may ask again
 };
 
 bool Trial::in_equilibrium() const
@@ -123,7 +169,7 @@ Rve::Rve(const Specimen& specimen, const Input& input)
     const feldspar::Input wanted = input_of_rve(input, specimen);
     return std::visit(
       [&]<int dim>(const feldspar::Specimen<dim>& body) {
-        return std::make_unique<RveState>(RveState{Cell<dim>(network_of(body, wanted), wanted.equilibrium)});
+        return std::make_unique<RveState>(Cell<dim>(network_of(body, wanted), wanted.equilibrium));
       },
       specimen.state().body);
   }))
@@ -131,111 +177,138 @@ Rve::Rve(const Specimen& specimen, const Input& input)
 }
 
 Rve::Rve(const Rve& other)
-  : of(std::make_unique<RveState>(*other.of))
+  : of(std::make_unique<RveState>(other.of->copied()))
 {
 }
 
 Rve& Rve::operator=(const Rve& other)
 {
-  *of = *other.of;
+  of = std::make_unique<RveState>(other.of->copied());
   return *this;
 }
 
 Rve::~Rve() = default;
 
-int Rve::dimension() const { return of->cell.index() == 0 ? 2 : 3; }
+int Rve::dimension() const
+{
+  return of->alone([]<int dim>(const Cell<dim>&) { return dim; });
+}
 
 std::vector<double> Rve::stiffness() const
 {
-  return std::visit([](const auto& cell) { return rows_of(cell.network().intact_stiffness()); }, of->cell);
+  return of->alone([](const auto& cell) { return rows_of(cell.network().intact_stiffness()); });
 }
 
 std::vector<double> Rve::strain() const
 {
-  return std::visit([](const auto& cell) { return values_of(cell.state().strain); }, of->cell);
+  return of->alone([](const auto& cell) { return values_of(cell.state().strain); });
 }
 
 std::vector<double> Rve::stress() const
 {
-  return std::visit([](const auto& cell) { return values_of(cell.state().stress); }, of->cell);
+  return of->alone([](const auto& cell) { return values_of(cell.state().stress); });
 }
 
 bool Rve::is_intact() const
 {
-  return std::visit([](const auto& cell) { return cell.state().intact; }, of->cell);
+  return of->alone([](const auto& cell) { return cell.state().intact; });
 }
 
 std::size_t Rve::n_broken() const
 {
-  return std::visit([](const auto& cell) { return broken(cell.state()); }, of->cell);
+  return of->alone([](const auto& cell) { return broken(cell.state()); });
 }
 
 namespace
 {
-TrialState trial_of(const RveState& state, const std::span<const double> strain, const Bonds bonds,
-                    const bool with_tangent, const Check& check)
+std::shared_ptr<TrialState> trial_of(RveState& state, const std::span<const double> strain, const Bonds bonds,
+                                     const bool with_tangent, const Check& check)
 {
-  return std::visit(
-    [&]<int dim>(const Cell<dim>& cell) {
-      return TrialState{answer<dim>(cell, strain_of<dim>(strain), bonds, with_tangent, check)};
-    },
-    state.cell);
+  return state.alone([&]<int dim>(const Cell<dim>& cell) {
+    return std::make_shared<TrialState>(
+      TrialState{answer<dim>(cell, strain_of<dim>(strain), bonds, with_tangent, check), &cell.network()});
+  });
 }
 } // namespace
 
 Trial Rve::trial(const std::span<const double> strain, const bool with_tangent, const Check& check) const
 {
   Trial trial;
-  trial.of =
-    guarded([&] { return std::make_shared<TrialState>(trial_of(*of, strain, Bonds::frozen, with_tangent, check)); });
+  trial.of = trial_of(*of, strain, Bonds::frozen, with_tangent, check);
   return trial;
 }
 
 Trial Rve::relax(const std::span<const double> strain, const bool with_tangent, const Check& check) const
 {
   Trial trial;
-  trial.of =
-    guarded([&] { return std::make_shared<TrialState>(trial_of(*of, strain, Bonds::may_break, with_tangent, check)); });
+  trial.of = trial_of(*of, strain, Bonds::may_break, with_tangent, check);
   return trial;
 }
 
 void Rve::accept(const Trial& trial)
 {
-  if (!trial.in_equilibrium())
-    throw Error("no equilibrium was found at this strain; take a smaller step from the accepted state");
-  std::visit(
-    [&]<int dim>(Cell<dim>& cell) {
-      if (const auto* const own = std::get_if<feldspar::Trial<dim>>(&trial.of->trial))
-        cell.accept(feldspar::Trial<dim>(*own));
-      else
-        throw Error("the trial is of a volume of another dimension");
-    },
-    of->cell);
+  of->alone([&]<int dim>(Cell<dim>& cell) {
+    if (trial.of->network != &cell.network())
+      throw InputError("the trial is of another cell; a volume accepts its own trials and those of its copies");
+    if (!trial.in_equilibrium())
+      throw InputError("no equilibrium was found at this strain; take a smaller step from the accepted state");
+    cell.accept(feldspar::Trial<dim>(std::get<feldspar::Trial<dim>>(trial.of->trial)));
+  });
 }
 
 double Rve::first_break(const std::span<const double> direction) const
 {
-  return guarded([&] {
-    return std::visit(
-      [&]<int dim>(const Cell<dim>& cell) {
-        if (direction.size() != n_voigt<dim>)
-          throw InputError(fmt::format("a direction has {} components; in {} dimensions there must be {}",
-                                       direction.size(), dim, n_voigt<dim>));
-        return cell.network().first_break(Eigen::Map<const Voigt<dim>>(direction.data())).factor;
-      },
-      of->cell);
+  return of->alone([&]<int dim>(const Cell<dim>& cell) {
+    if (direction.size() != n_voigt<dim> ||
+        !std::ranges::all_of(direction, [](const double component) { return std::isfinite(component); }))
+      throw InputError(fmt::format("a direction must have {} finite components in {} dimensions", n_voigt<dim>, dim));
+    return cell.network().first_break(Eigen::Map<const Voigt<dim>>(direction.data())).factor;
   });
 }
 
+namespace
+{
+std::uint64_t fingerprint_of(const std::string& bytes)
+{
+  Fingerprint print;
+  print.add(bytes);
+  return print.value();
+}
+
+/// A state, with the fingerprints of its cell and of its bytes.
+struct StoredState
+{
+  std::uint64_t cell = 0;
+  std::uint64_t content = 0;
+  std::string bytes;
+};
+
+template <typename Archive>
+void transfer(Archive& archive, StoredState& stored)
+{
+  archive.value("cell", stored.cell);
+  archive.value("content", stored.content);
+  archive.text("bytes", stored.bytes);
+}
+} // namespace
+
 std::string Rve::state() const
 {
-  return std::visit([](const auto& cell) { return to_bytes(cell.state()); }, of->cell);
+  return of->alone([](const auto& cell) {
+    const std::string bytes = to_bytes(cell.state());
+    return to_bytes(StoredState{fingerprint_of(cell.network()), fingerprint_of(bytes), bytes});
+  });
 }
 
 void Rve::restore(const std::string& state)
 {
-  guarded([&] {
-    std::visit([&]<int dim>(Cell<dim>& cell) { cell.restore(from_bytes<NetworkState<dim>>(state)); }, of->cell);
+  of->alone([&]<int dim>(Cell<dim>& cell) {
+    const auto stored = from_bytes<StoredState>(state);
+    if (fingerprint_of(stored.bytes) != stored.content)
+      throw InputError("a stored state was changed since it was stored");
+    if (fingerprint_of(cell.network()) != stored.cell)
+      throw InputError("a stored state is of another cell");
+    cell.restore(from_bytes<NetworkState<dim>>(stored.bytes));
   });
 }
 
@@ -253,6 +326,7 @@ template <int dim>
 class Answers
 {
 public:
+  Answers() = default;
   Answers(std::vector<Network<dim>> of_realisations, std::vector<std::size_t> of_volumes,
           const EquilibriumParameters& wanted)
     : networks(std::move(of_realisations))
@@ -365,6 +439,7 @@ class VolumesState
 {
 public:
   std::variant<Answers<2>, Answers<3>> answers;
+  std::mutex one_at_a_time;
 };
 
 Volumes::Volumes(const std::span<const Specimen> specimens, const Input& input, const std::size_t n,
@@ -388,8 +463,9 @@ Volumes::Volumes(const std::span<const Specimen> specimens, const Input& input, 
           networks.push_back(network_of(*body, wanted));
         else
           throw InputError("the specimens of volumes must have one dimension");
-      return std::make_unique<VolumesState>(
-        VolumesState{Answers<dim>(std::move(networks), std::move(of_volumes), wanted.equilibrium)});
+      auto state = std::make_unique<VolumesState>();
+      state->answers.template emplace<Answers<dim>>(std::move(networks), std::move(of_volumes), wanted.equilibrium);
+      return state;
     };
     return specimens.front().dimension() == 2 ? make.template operator()<2>() : make.template operator()<3>();
   }))
@@ -410,6 +486,7 @@ int Volumes::dimension() const { return of->answers.index() == 0 ? 2 : 3; }
 std::uint64_t Volumes::update(const std::span<const double> strains, const std::uint64_t parent,
                               const std::span<double> stresses, const std::span<double> tangents, const Check& check)
 {
+  const std::lock_guard lock(of->one_at_a_time);
   return guarded([&] {
     return std::visit([&](auto& answers) { return answers.update(strains, parent, stresses, tangents, check); },
                       of->answers);
@@ -418,6 +495,7 @@ std::uint64_t Volumes::update(const std::span<const double> strains, const std::
 
 std::vector<std::size_t> Volumes::n_broken(const std::uint64_t token) const
 {
+  const std::lock_guard lock(of->one_at_a_time);
   return guarded([&] { return std::visit([&](const auto& answers) { return answers.n_broken(token); }, of->answers); });
 }
 } // namespace feldspar::v1

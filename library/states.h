@@ -41,6 +41,7 @@ class TrialState
 {
 public:
   std::variant<feldspar::Trial<2>, feldspar::Trial<3>> trial;
+  const void* network; ///< of the volume that was tried
 };
 
 /// Runs work of the library, whose errors become those of the face.

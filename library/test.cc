@@ -4,23 +4,24 @@
 #include "laboratory/curve.h"
 #include "laboratory/loading_stages.h"
 #include "library/states.h"
+#include "results/folder/csv_tables.h"
 #include "results/folder/summary.h"
 #include "results/folder/table_columns.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 
 namespace feldspar::v1
 {
 namespace
 {
-constexpr bool is_shown(const feldspar::Column<CurveSample>& column) { return !column.is(only_of_samples); }
-
 std::vector<feldspar::Column<CurveSample>> shown_columns()
 {
   std::vector<feldspar::Column<CurveSample>> columns;
-  std::copy_if(std::begin(curve_columns), std::end(curve_columns), std::back_inserter(columns), is_shown);
+  std::copy_if(std::begin(curve_columns), std::end(curve_columns), std::back_inserter(columns),
+               [](const auto& column) { return !column.is(only_of_samples); });
   return columns;
 }
 
@@ -39,9 +40,9 @@ LoadingStage stage_of(const Stage& stage)
           stage.duration,     stage.confining_pressure, stage.strain_rate};
 }
 
-void check_stage(const LoadingStage& stage, const LoadingStage* const before)
+void check_stage(const LoadingStage& stage, const LoadingStage& before)
 {
-  if (const std::string what = objection(stage, before); !what.empty())
+  if (const std::string what = objection(stage, &before); !what.empty())
     throw InputError(what);
 }
 } // namespace
@@ -58,29 +59,56 @@ public:
   {
     std::visit(
       [&]<int dim>(const feldspar::Specimen<dim>& body) {
-        check_specimen_of_file(input, body);
+        if (body.is_periodic())
+          throw InputError("the specimen is a periodic cell; a laboratory test needs walls: set Specimen/Shape = box");
+        check_on_body(input, body_of(dim, body.shape));
         running = std::make_unique<LabTest<dim>>(LaboratoryCase{protocol_of(test.kind), test.confining_pressure},
                                                  feldspar::Specimen<dim>(body), input.tests, input.dynamics);
       },
       specimen.state().body);
   }
 
+  /// Use by one thread at a time. The thread that runs the test may look at it meanwhile, as the handler of a signal.
   template <typename Use>
-  auto with(const Use& use) const
+  auto alone(const Use& use)
   {
-    return std::visit([&](const auto& one) { return use(*one); }, running);
+    const std::lock_guard lock(one_at_a_time);
+    return guarded([&] { return std::visit([&](auto& one) { return use(*one); }, running); });
   }
 
-  FinishedTest finished_now() const
+  /// The same for what changes the test.
+  template <typename Use>
+  auto changing(const Use& use)
+  {
+    return alone([&](auto& one) {
+      if (is_running)
+        throw InputError("the test is running, and cannot be run by what it calls meanwhile");
+      is_running = true;
+      struct Ending
+      {
+        bool& flag;
+        ~Ending() { flag = false; }
+      } const ending{is_running};
+      return use(one);
+    });
+  }
+
+  FinishedTest finished_now()
   {
     const std::string own_name = name(test);
-    return with([&](const auto& one) { return finished(one.finish(!one.has_ended()), own_name, own_name, ""); });
+    return alone([&](const auto& one) { return finished(one.finish(!one.has_ended()), own_name, own_name, ""); });
   }
+
+  double sign() const { return test.kind.sign; }
 
   feldspar::Input input;
   TestCase test;
+  std::optional<LoadingStage> last_stage; ///< of a test that follows stages
+
+private:
   std::variant<Running<2>, Running<3>> running;
-  std::optional<LoadingStage> last_stage;
+  std::recursive_mutex one_at_a_time;
+  bool is_running = false;
 };
 
 namespace
@@ -93,10 +121,14 @@ feldspar::Input input_of_test(const Input& input, const Specimen& specimen, cons
   wanted.specimen.dimension = unsigned(specimen.dimension());
   wanted.test_list = {kind};
   wanted.confinements = {confining_pressure};
+  constexpr double largest = 1e11; // beyond the stiffness of any rock
+  if (!(confining_pressure >= 0.0 && confining_pressure <= largest))
+    throw InputError(
+      fmt::format("the confining pressure is {:g} Pa; it must lie in [0, {:g}]", confining_pressure, largest));
   if (confining_pressure != 0.0 && !kind.takes_confining_pressure)
     throw InputError(fmt::format("{} takes no confining pressure", kind.name));
-  if (!(confining_pressure >= 0.0))
-    throw InputError(fmt::format("the confining pressure is {:g} Pa; it must be at least 0", confining_pressure));
+  if (confining_pressure == 0.0 && kind.takes_confining_pressure)
+    throw InputError(fmt::format("{} needs a confining pressure above 0", kind.name));
   return wanted;
 }
 } // namespace
@@ -109,12 +141,15 @@ Test::Test(const Specimen& specimen, const Input& input, const std::string_view 
 {
 }
 
-Test::Test(const Specimen& specimen, const Input& input, const Stage& first)
+Test::Test(const Specimen& specimen, const Input& input, const double confining_pressure, const Stage& first)
   : of(guarded([&] {
     const LoadingStage stage = stage_of(first);
-    check_stage(stage, nullptr);
+    LoadingStage before;
+    before.confining_pressure = confining_pressure;
+    check_stage(stage, before);
     feldspar::Input wanted = input_of_test(input, specimen, own_loading.kind, 0.0);
     wanted.tests.of<LoadingTable>().stages = {stage};
+    wanted.tests.of<LoadingTable>().pressure_at_start = confining_pressure;
     auto state = std::make_unique<TestState>(specimen, std::move(wanted), TestCase{own_loading.kind, 0.0});
     state->last_stage = stage;
     return state;
@@ -128,39 +163,35 @@ Test::~Test() = default;
 
 void Test::follow(const Stage& stage)
 {
-  guarded([&] {
+  of->changing([&](auto& one) {
     if (!of->last_stage)
       throw InputError(
         fmt::format("{} follows no stages; begin a test of your own with its first stage", of->test.kind.name));
     const LoadingStage next = stage_of(stage);
-    check_stage(next, &*of->last_stage);
-    std::visit([&](auto& one) { one->follow(next); }, of->running);
+    check_stage(next, *of->last_stage);
+    one.follow(next);
     of->last_stage = next;
   });
 }
 
 bool Test::advance(const Check& check)
 {
-  return guarded([&] {
-    return std::visit(
-      [&](auto& one) {
-        const bool goes_on = !one->has_ended() && one->advance(interrupting(check));
-        if (one->went_wrong())
-          throw InputError(one->finish(false).record.failure);
-        return goes_on;
-      },
-      of->running);
+  return of->changing([&](auto& one) {
+    const bool goes_on = !one.has_ended() && one.advance(interrupting(check));
+    if (one.went_wrong())
+      throw InputError(one.finish(false).record.failure);
+    return goes_on;
   });
 }
 
 bool Test::has_ended() const
 {
-  return of->with([](const auto& one) { return one.has_ended(); });
+  return of->alone([](const auto& one) { return one.has_ended(); });
 }
 
 std::uint64_t Test::n_rows() const
 {
-  return of->with([](const auto& one) { return one.curve().size(); });
+  return of->alone([](const auto& one) { return one.curve().size(); });
 }
 
 std::vector<std::string> Test::columns() const
@@ -173,25 +204,25 @@ std::vector<std::string> Test::columns() const
 
 std::vector<double> Test::last_row() const
 {
-  return of->with([&](const auto& one) {
+  return of->alone([&](const auto& one) {
     std::vector<double> row;
     if (!one.curve().empty())
       for (const auto& column : curve_columns)
-        if (is_shown(column))
-          row.push_back((column.is(positive_in_test) ? of->test.kind.sign : 1.0) * column.get(one.curve().back()));
+        if (!column.is(only_of_samples))
+          row.push_back((column.is(positive_in_test) ? of->sign() : 1.0) * column.get(one.curve().back()));
     return row;
   });
 }
 
 Table Test::curve(const std::uint64_t from) const
 {
-  return of->with([&](const auto& one) { return table_of(one.curve(), shown_columns(), of->test.kind.sign, from); });
+  return of->alone([&](const auto& one) { return table_of(one.curve(), shown_columns(), of->sign(), from); });
 }
 
 Table Test::cracks() const
 {
   const std::vector<Crack> cracks = of->finished_now().record.cracks;
-  Table table = table_of(cracks, crack_columns, of->test.kind.sign);
+  Table table = table_of(cracks, crack_columns, of->sign());
   v1::Column in_tension{"in_tension", {}, true};
   for (const Crack& crack : cracks)
     in_tension.values.push_back(crack.kind == CrackKind::tension ? 1.0 : 0.0);
@@ -199,10 +230,16 @@ Table Test::cracks() const
   return table;
 }
 
-Table Test::grains() const { return table_of(of->finished_now().appearance.grains_at_end, grain_columns("group")); }
+Table Test::grains() const
+{
+  const FinishedTest now = of->finished_now();
+  const std::string group = group_name(now.record);
+  return table_of(now.appearance.grains_at_end, grain_columns(group));
+}
 
 std::string Test::summary() const
 {
-  return guarded([&] { return test_as_json(of->finished_now()); });
+  const FinishedTest now = of->finished_now();
+  return guarded([&] { return test_as_json(now); });
 }
 } // namespace feldspar::v1

@@ -64,6 +64,14 @@ py::dict dict_of(feldspar::Table&& table)
   return columns;
 }
 
+/// The outcome of work that may have to wait for another thread, which needs the interpreter.
+template <typename Work>
+auto waiting(const Work& work)
+{
+  const py::gil_scoped_release released;
+  return work();
+}
+
 std::span<const double> span_of(const Array& array) { return {array.data(), std::size_t(array.size())}; }
 
 std::size_t n_voigt(const int dimension) { return dimension == 2 ? 3 : 6; }
@@ -156,20 +164,22 @@ PYBIND11_MODULE(_core, module)
   py::class_<Test>(module, "Test")
     .def(py::init<const Specimen&, const Input&, std::string_view, double>(), WithoutInterpreter(), py::arg("specimen"),
          py::arg("input"), py::arg("kind"), py::arg("confining_pressure"))
-    .def(py::init<const Specimen&, const Input&, const Stage&>(), WithoutInterpreter(), py::arg("specimen"),
-         py::arg("input"), py::arg("first"))
-    .def("follow", &Test::follow, py::arg("stage"))
+    .def(py::init<const Specimen&, const Input&, double, const Stage&>(), WithoutInterpreter(), py::arg("specimen"),
+         py::arg("input"), py::arg("confining_pressure"), py::arg("first"))
+    .def("follow", &Test::follow, WithoutInterpreter(), py::arg("stage"))
     .def(
       "advance", [](Test& test) { return test.advance(signals()); }, WithoutInterpreter())
-    .def_property_readonly("has_ended", &Test::has_ended)
-    .def_property_readonly("n_rows", &Test::n_rows)
+    .def_property_readonly("has_ended", [](const Test& test) { return waiting([&] { return test.has_ended(); }); })
+    .def_property_readonly("n_rows", [](const Test& test) { return waiting([&] { return test.n_rows(); }); })
     .def("columns", &Test::columns)
-    .def("last_row", [](const Test& test) { return array_of(test.last_row()); })
+    .def("last_row", [](const Test& test) { return array_of(waiting([&] { return test.last_row(); })); })
     .def(
-      "curve", [](const Test& test, const std::uint64_t from) { return dict_of(test.curve(from)); }, py::arg("first"))
-    .def("cracks", [](const Test& test) { return dict_of(test.cracks()); })
-    .def("grains", [](const Test& test) { return dict_of(test.grains()); })
-    .def("summary", &Test::summary);
+      "curve",
+      [](const Test& test, const std::uint64_t first) { return dict_of(waiting([&] { return test.curve(first); })); },
+      py::arg("first"))
+    .def("cracks", [](const Test& test) { return dict_of(waiting([&] { return test.cracks(); })); })
+    .def("grains", [](const Test& test) { return dict_of(waiting([&] { return test.grains(); })); })
+    .def("summary", &Test::summary, WithoutInterpreter());
 
   const auto strain_of = [](const auto& body) { return array_of(body.strain()); };
   const auto stress_of = [](const auto& body) { return array_of(body.stress()); };
@@ -209,7 +219,7 @@ PYBIND11_MODULE(_core, module)
         return rve.relax(numbers, tangent, signals());
       },
       py::arg("strain"), py::arg("tangent"))
-    .def("accept", &Rve::accept, py::arg("trial"))
+    .def("accept", &Rve::accept, WithoutInterpreter(), py::arg("trial"))
     .def(
       "first_break", [](const Rve& rve, const Array& direction) { return rve.first_break(span_of(direction)); },
       py::arg("direction"))
