@@ -11,7 +11,8 @@ volumes in tension. Quantities may be given as text with a unit, such as "10 MPa
 
 from feldspar._core import Error
 from feldspar.bodies import Press, Rve, Specimen, Test, Trial, Volumes
-from feldspar.commands import Run, calibrate, contact, lab, multiscale, open, report, rve_path
+from feldspar.commands import Run, calibrate, contact, lab, multiscale, report, rve_path
+from feldspar.commands import open as open  # not in __all__, where it would hide Python's own
 from feldspar.inputs import Input, entries, set_threads, version
 
 __all__ = [
@@ -29,7 +30,6 @@ __all__ = [
     "entries",
     "lab",
     "multiscale",
-    "open",
     "report",
     "rve_path",
     "set_threads",

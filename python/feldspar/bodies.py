@@ -3,14 +3,14 @@
 import json
 import os
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, NoReturn, Self, Union
 
 import numpy
 import pandas
 from numpy.typing import ArrayLike, NDArray
 
 from feldspar import _core
-from feldspar.inputs import Input, Quantity, in_si
+from feldspar.inputs import Input, InputLike, Quantity, as_input, in_si, number, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,12 +25,12 @@ class Specimen:
     The same input and seed give the same bits. Raises Error where the specimen cannot be made.
     """
 
-    def __init__(self, input: Input, seed: int = 1) -> None:
-        self.input = Input(input)
-        self.core = _core.Specimen(self.input.core, seed)
+    def __init__(self, input: InputLike, seed: int = 1) -> None:
+        self.input = Input(as_input(input))
+        self.core = _core.Specimen(self.input.core, whole(seed, "a seed"))
 
     @classmethod
-    def load(cls, file: Union[str, "os.PathLike[str]"], input: Union[Input, None] = None) -> "Specimen":
+    def load(cls, file: Union[str, "os.PathLike[str]"], input: Union[InputLike, None] = None) -> "Specimen":
         """Reads a specimen.h5 that save() or a run wrote; `input` has the entries of the tests on it."""
         specimen = cls.__new__(cls)
         specimen.input = Input(input)
@@ -67,13 +67,15 @@ class Specimen:
     @property
     def report(self) -> dict[str, float]:
         """Counts, porosity, coordination and installation gap, by their names in summary.json."""
-        return dict(self.core.report())
+        return {name: int(one) if name.startswith("n_") else one for name, one in self.core.report()}
 
     def test(self, kind: str, confinement: Quantity = 0.0) -> "Test":
         """Returns a laboratory test, ready to run: direct_tension, uniaxial_compression, triaxial_compression, brazilian, …
 
         `confinement`: the confining pressure, compression positive [Pa].
         """
+        if not isinstance(kind, str):
+            raise _core.Error(f"the kind of a test must be a name, not {kind!r}")
         return Test(_core.Test(self.core, self.input.core, kind, in_si(confinement, "stress")), kind)
 
     def press(self, confinement: Quantity = 0.0) -> "Press":
@@ -112,26 +114,36 @@ class Test:
         """Runs to the next row of the curve. Returns False once the test has ended."""
         return self.core.advance()
 
-    def run(self, until: Union[float, None] = None, each: Each = None) -> "Test":
+    def __copy__(self) -> NoReturn:
+        raise _core.Error("a running test cannot be copied; make another one of the specimen")
+
+    def __deepcopy__(self, memo: object) -> NoReturn:
+        self.__copy__()
+
+    def run(self, until: Union[float, None] = None, each: Each = None) -> Self:
         """Runs the test to its end, to the axial strain `until`, or to where `each(test)`, called after each row, returns
-        True. Ctrl-C ends it at the step it stands at; a later run() goes on from there. Returns the test."""
+        what is true. Ctrl-C ends it at the step it stands at; a later run() goes on from there. Returns the test."""
         goes_on = not self.has_ended
         while goes_on and not (until is not None and self.n_rows > 0 and self.strain >= until):
             goes_on = self.advance()
-            if each is not None and each(self) is True:
+            if each is not None and each(self):
                 break
         return self
 
     @property
     def has_ended(self) -> bool:
+        """Whether the test, or the last stage of a press, has ended."""
         return self.core.has_ended
 
     @property
     def n_rows(self) -> int:
+        """Rows of the curve so far."""
         return self.core.n_rows
 
     def last(self, column: str) -> float:
         """Returns a number of the last row of the curve; NaN before the first."""
+        if column not in self._columns:
+            raise _core.Error(f"{column} is no column of a curve; they are {', '.join(self._columns)}")
         row = self.core.last_row()
         return float(row[self._columns.index(column)]) if len(row) else numpy.nan
 
@@ -215,11 +227,16 @@ class Press(Test):
     def n_rows(self) -> int:
         return self._test.n_rows if self._test else 0
 
-    def _load(self, each: Each, confinement: Union[Quantity, None], **stage: Union[float, None]) -> "Press":
+    @property
+    def has_ended(self) -> bool:
+        """Whether the last stage has ended."""
+        return self._test.has_ended if self._test else False
+
+    def _load(self, each: Each, confinement: Union[Quantity, None], **stage: Union[float, None]) -> Self:
         pressure = self._confinement if confinement is None else in_si(confinement, "stress")
         target = _core.Stage(confining_pressure=pressure, **stage)
         if self._test is None:
-            self._test = _core.Test(self._specimen.core, self._specimen.input.core, target)
+            self._test = _core.Test(self._specimen.core, self._specimen.input.core, self._confinement, target)
             self._columns = self._test.columns()
         else:
             self._test.follow(target)
@@ -233,30 +250,30 @@ class Press(Test):
         rate: Union[Quantity, None] = None,
         confinement: Union[Quantity, None] = None,
         each: Each = None,
-    ) -> "Press":
+    ) -> Self:
         """Moves the platens to an axial strain, at `rate` [1/s] (preset: Tests/Compression strain rate); the confining
         pressure goes evenly with it to `confinement`."""
-        return self._load(each, confinement, axial_strain=strain, strain_rate=_rate(rate))
+        return self._load(each, confinement, axial_strain=number(strain, "a strain"), strain_rate=_rate(rate))
 
-    def stress_to(self, stress: Quantity, rate: Union[Quantity, None] = None, each: Each = None) -> "Press":
+    def stress_to(self, stress: Quantity, rate: Union[Quantity, None] = None, each: Each = None) -> Self:
         """Moves the platens until the axial stress is `stress` [Pa], or rises no further."""
         return self._load(each, None, axial_stress=in_si(stress, "stress"), strain_rate=_rate(rate))
 
-    def widen_to(self, lateral_strain: float, rate: Quantity, each: Each = None) -> "Press":
+    def widen_to(self, lateral_strain: float, rate: Quantity, each: Each = None) -> Self:
         """Moves the platens such that the specimen widens at `rate` [1/s] to a lateral strain, which is negative."""
-        return self._load(each, None, lateral_strain=lateral_strain, strain_rate=_rate(rate))
+        return self._load(each, None, lateral_strain=number(lateral_strain, "a strain"), strain_rate=_rate(rate))
 
     def hold(
         self,
-        duration: float,
+        duration: Quantity,
         stress: Union[Quantity, None] = None,
         confinement: Union[Quantity, None] = None,
         each: Each = None,
-    ) -> "Press":
+    ) -> Self:
         """Holds the platens, or the axial stress [Pa], for a time [s], in which the confining pressure goes to
         `confinement`."""
         held = None if stress is None else in_si(stress, "stress")
-        return self._load(each, confinement, duration=duration, axial_stress=held)
+        return self._load(each, confinement, duration=in_si(duration, "duration"), axial_stress=held)
 
 
 def _rate(rate: Union[Quantity, None]) -> Union[float, None]:
@@ -274,9 +291,12 @@ class Rve:
     >>> rve.accept()
     """
 
-    def __init__(self, input: Union[Input, None] = None, seed: int = 1, specimen: Union[Specimen, None] = None) -> None:
-        self.specimen = specimen if specimen is not None else Specimen(input if input is not None else Input(), seed)
-        self.core = _core.Rve(self.specimen.core, (input if input is not None else self.specimen.input).core)
+    def __init__(self, body: Union[InputLike, Specimen, None] = None, seed: int = 1) -> None:
+        """`body`: an input, of which a specimen is made with the seed, or a periodic specimen. None: Beishan granite."""
+        if not isinstance(body, Specimen):
+            body = Specimen(as_cell(body if body is not None else {"Specimen/Shape": "periodic"}), seed)
+        self.specimen = body
+        self.core = _core.Rve(body.core, body.input.core)
         self._last: Union[Trial, None] = None
 
     def copy(self) -> "Rve":
@@ -287,13 +307,24 @@ class Rve:
         other._last = None
         return other
 
+    def __copy__(self) -> "Rve":
+        return self.copy()
+
+    def __deepcopy__(self, memo: object) -> "Rve":
+        return self.copy()
+
+    def __repr__(self) -> str:
+        return f"<Rve of {len(self.specimen.grains)} grains, {self.n_broken} broken segments>"
+
     def trial(self, strain: ArrayLike, tangent: bool = False) -> Trial:
         """Returns the response to a strain from the accepted state, with all bonds kept."""
+        self._last = None
         self._last = self.core.trial(strain, tangent)
         return self._last
 
     def relax(self, strain: ArrayLike, tangent: bool = False) -> Trial:
         """Returns the response to a strain from the accepted state; bonds break until none is overloaded."""
+        self._last = None
         self._last = self.core.relax(strain, tangent)
         return self._last
 
@@ -311,6 +342,7 @@ class Rve:
 
     @property
     def dimension(self) -> int:
+        """2 or 3."""
         return self.core.dimension
 
     @property
@@ -328,15 +360,17 @@ class Rve:
 
     @property
     def strain(self) -> Numbers:
+        """Strain of the accepted state; [n]."""
         return self.core.strain
 
     @property
     def stress(self) -> Numbers:
-        """[Pa]"""
+        """Stress of the accepted state [Pa]; [n]."""
         return self.core.stress
 
     @property
     def is_intact(self) -> bool:
+        """Whether nothing has broken and no pair of grains has come into contact."""
         return self.core.is_intact
 
     @property
@@ -360,6 +394,14 @@ class Rve:
         self._last = None
 
 
+def as_cell(input: InputLike) -> Input:
+    """Returns the input of a periodic cell. Raises Error for one of a specimen between walls."""
+    cell = as_input(input)
+    if cell["Specimen/Shape"] != "periodic" and cell["Specimen/Specimen file"] == "none":
+        raise _core.Error("a representative volume needs Specimen/Shape = periodic")
+    return cell
+
+
 class Volumes:
     """Many representative volumes, answered on all threads by one call.
 
@@ -369,18 +411,26 @@ class Volumes:
 
     def __init__(
         self,
-        specimens: Union[Input, Sequence[Specimen]],
+        specimens: Union[InputLike, Specimen, Sequence[Specimen]],
         n: int,
         seed: int = 1,
         realisations: int = 1,
         assigned: Union[Sequence[int], None] = None,
     ) -> None:
-        made = (
-            [Specimen(specimens, seed + k) for k in range(realisations)] if isinstance(specimens, Input) else list(specimens)
-        )
-        if not made:
-            raise _core.Error("volumes need at least one specimen")
-        which = [k % len(made) for k in range(n)] if assigned is None else list(assigned)
+        n = whole(n, "the number of volumes", most=10**9)
+        if isinstance(specimens, Specimen):
+            made = [specimens]
+        elif isinstance(specimens, Sequence) and not isinstance(specimens, str):
+            made = list(specimens)
+        else:
+            cell = as_cell(specimens)
+            seeds = range(whole(seed, "a seed"), seed + whole(realisations, "the number of realisations", least=1))
+            made = [Specimen(cell, one) for one in seeds]
+        if not made or not all(isinstance(one, Specimen) for one in made):
+            raise _core.Error("volumes need an input or at least one specimen")
+        which = [k % len(made) for k in range(n)]
+        if assigned is not None:
+            which = [whole(one, "the number of a specimen", most=len(made) - 1) for one in assigned]
         self.specimens = made
         self.core = _core.Volumes([one.core for one in made], made[0].input.core, n, which)
 
@@ -397,8 +447,11 @@ class Volumes:
         token given as parent is accepted by that: what came before it, and its siblings, are forgotten. Raises Error, and
         keeps nothing, where a volume finds no equilibrium.
         """
-        return self.core.update(strains, parent, tangent)
+        return self.core.update(strains, whole(parent, "a token"), tangent)
 
     def n_broken(self, token: int) -> NDArray[numpy.int64]:
         """Returns the broken segments of each volume in the state of a token; [n]."""
-        return numpy.array(self.core.n_broken(token), dtype=numpy.int64)
+        return numpy.array(self.core.n_broken(whole(token, "a token")), dtype=numpy.int64)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} Volumes of {len(self.specimens)} specimens>"

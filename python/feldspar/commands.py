@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Union
 import pandas
 
 from feldspar import _core
-from feldspar.inputs import Input
+from feldspar.inputs import Input, InputLike, as_input
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,7 +67,10 @@ class Run:
         """Draws stress over strain of all tests."""
         from feldspar.figures import curve_figure
 
-        return curve_figure(self.curves, axes)
+        tests = {name: curve for name, curve in self.curves.items() if "axial_strain" in curve}
+        if not tests:
+            raise _core.Error(f"{self.folder}: has no curve of a test; `curves` has what there is")
+        return curve_figure(tests, axes)
 
     def _json(self, name: str) -> dict[str, Any]:
         content: dict[str, Any] = json.loads(self._file(name).read_text(encoding="utf-8"))
@@ -90,77 +94,100 @@ def open(folder: PathLike) -> Run:
     return Run(folder)
 
 
-def lab(input: Union[Input, PathLike], output: PathLike, force: bool = False, threads: Union[int, None] = None) -> Run:
-    """Makes the specimens and tests of an input as `feldspar lab` does, into a folder; `force` replaces an older run there."""
-    return _run("lab", input, output, force, threads)
+def lab(
+    input: InputLike, output: PathLike, force: bool = False, resume: bool = False, threads: Union[int, None] = None
+) -> Run:
+    """Makes the specimens and tests of an input as `feldspar lab` does, into a folder.
+
+    `force` replaces an older run there, `resume` goes on with one that was interrupted. Raises Error with the program's
+    line where it ends by one; what it wrote until then stands in the folder.
+    """
+    return _run("lab", input, output, force, resume, threads)
 
 
 def rve_path(
-    input: Union[Input, PathLike], output: PathLike, force: bool = False, threads: Union[int, None] = None
+    input: InputLike, output: PathLike, force: bool = False, resume: bool = False, threads: Union[int, None] = None
 ) -> Run:
-    """Leads representative volumes along the path of an input, as `feldspar rve` does."""
-    return _run("rve", input, output, force, threads)
+    """Leads representative volumes along the path of an input, as `feldspar rve` does; options as of lab()."""
+    return _run("rve", input, output, force, resume, threads)
 
 
 def multiscale(
-    input: Union[Input, PathLike], output: PathLike, force: bool = False, threads: Union[int, None] = None
+    input: InputLike, output: PathLike, force: bool = False, resume: bool = False, threads: Union[int, None] = None
 ) -> Run:
-    """Tests samples of finite elements with a representative volume at every point, as `feldspar multiscale` does."""
-    return _run("multiscale", input, output, force, threads)
+    """Tests samples of finite elements with a representative volume at every point, as `feldspar multiscale` does; options
+    as of lab()."""
+    return _run("multiscale", input, output, force, resume, threads)
 
 
-def contact(input: Union[Input, PathLike], output: PathLike, force: bool = False) -> Run:
+def contact(input: InputLike, output: PathLike, force: bool = False) -> Run:
     """Leads one contact along a path of displacements, as `feldspar contact` does."""
-    return _run("contact", input, output, force, None)
+    return _run("contact", input, output, force, False, None)
 
 
 def calibrate(
-    input: Union[Input, PathLike], output: PathLike, force: bool = False, threads: Union[int, None] = None
+    input: InputLike, output: PathLike, force: bool = False, resume: bool = False, threads: Union[int, None] = None
 ) -> Run:
-    """Finds the micro-parameters of a rock, as `feldspar calibrate` does."""
-    return _run("calibrate", input, output, force, threads)
+    """Finds the micro-parameters of a rock, as `feldspar calibrate` does; options as of lab()."""
+    return _run("calibrate", input, output, force, resume, threads)
 
 
 def report(*folders: Union[Run, PathLike], output: Union[PathLike, None] = None) -> Path:
-    """Makes the report of one run anew, or compares several in the folder `output`. Returns its page."""
+    """Makes the report of one run anew, or compares several, in the folder `output` or a new one. Returns its page."""
     names = [os.fspath(one.folder if isinstance(one, Run) else one) for one in folders]
     where = [] if output is None else ["--output", os.fspath(output)]
-    _call(["report", *names, *where])
-    return (Path(output) if output is not None else Path(names[0])) / "report.html"
+    return Path(_call(["report", *names, *where]).splitlines()[-1])
 
 
 def _run(
-    command: str, input: Union[Input, PathLike], output: PathLike, force: bool, threads: Union[int, None]
+    command: str, input: InputLike, output: PathLike, force: bool, resume: bool, threads: Union[int, None]
 ) -> Run:
-    options = ["--quiet", "--output", os.fspath(output)]
-    options += ["--force"] if force else []
-    options += [] if threads is None else ["--threads", str(threads)]
-    if not isinstance(input, Input):
-        _call([command, os.fspath(input), *options])
-    elif input.file is not None:
-        of_file = Input(input.file)
-        differing = [name for name in {**of_file, **input} if of_file[name] != input[name]]
-        settings = [part for name in differing for part in ("--set", f"{name} = {input[name]}")]
-        _call([command, os.fspath(input.file), *settings, *options])
-    else:
-        # In the current folder, to which the files that it names refer.
-        with tempfile.NamedTemporaryFile("w", suffix=".json", dir=".", encoding="utf-8") as file:
-            file.write(input.to_json())
-            file.flush()
-            _call([command, file.name, *options])
+    options = ["--quiet"] + ([] if threads is None else ["--threads", str(threads)])
+    if resume:
+        _call([command, "--resume", os.fspath(output), *options])
+        return Run(output)
+    options += ["--output", os.fspath(output)] + (["--force"] if force else [])
+    wanted = as_input(input)
+    if wanted.file is not None:
+        of_file = Input(wanted.file)
+        differing = [name for name in {**of_file, **wanted} if of_file[name] != wanted[name]]
+        settings = [part for name in differing for part in ("--set", f"{name} = {wanted[name]}")]
+        _call([command, os.fspath(wanted.file), *settings, *options])
+        return Run(output)
+    # In the current folder, to which the files that it names refer.
+    try:
+        file = tempfile.NamedTemporaryFile("w", prefix="input_", suffix=".json", dir=".", encoding="utf-8")
+    except OSError as error:
+        raise _core.Error(f"the current folder takes no file for the input: {error.strerror}") from None
+    with file:
+        file.write(wanted.to_json())
+        file.flush()
+        _call([command, os.path.basename(file.name), *options])
     return Run(output)
 
 
-def _call(arguments: list[str]) -> None:
-    """Runs the program. Raises Error with its line where it ends by one, KeyboardInterrupt where it was interrupted."""
-    beside = Path(__file__).parents[3] / "bin" / "feldspar"
+def _call(arguments: list[str]) -> str:
+    """Runs the program and returns what it prints. Raises Error with its line where it ends by one. Ctrl-C is handed on to
+    it, so that it keeps what there is."""
+    beside = Path(__file__).parents[4] / "bin" / "feldspar"
     program = os.environ.get("FELDSPAR_PROGRAM") or shutil.which("feldspar") or str(beside)
     try:
-        ended = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
-    except FileNotFoundError:
-        raise _core.Error(f"{program}: the program is not there; install it, or set FELDSPAR_PROGRAM to its path") from None
-    if ended.returncode == 130:
-        raise KeyboardInterrupt
+        # In a session of its own, a terminal's Ctrl-C reaches it once, from here.
+        running = subprocess.Popen(
+            [program, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+    except OSError as error:
+        raise _core.Error(
+            f"{program}: the program cannot be started ({error.strerror}); install it, or set FELDSPAR_PROGRAM to its path"
+        ) from None
+    with running:
+        try:
+            output, errors = running.communicate()
+        except KeyboardInterrupt:
+            running.send_signal(signal.SIGINT)
+            running.communicate()
+            raise
     not_failures = (0, 4, 5)  # a calibration that missed its targets, or did not decide
-    if ended.returncode not in not_failures:
-        raise _core.Error(ended.stderr.strip() or f"feldspar {arguments[0]} ended with code {ended.returncode}")
+    if running.returncode not in not_failures:
+        raise _core.Error(errors.strip() or f"feldspar {arguments[0]} ended with code {running.returncode}")
+    return output

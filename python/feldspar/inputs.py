@@ -3,8 +3,9 @@
 import json
 import os
 from collections.abc import Iterator, Mapping, MutableMapping, Sequence
+from numbers import Integral, Real
 from pathlib import Path
-from typing import Union
+from typing import Any, Union
 
 import pandas
 
@@ -16,6 +17,9 @@ Value = Union[str, float, int, None, Sequence[Union[str, float, int]]]
 #: An SI number, or text with its unit.
 Quantity = Union[float, str]
 
+#: What an input may be given as: itself, a .prm or .json file, or entries with their values.
+InputLike = Union["Input", str, "os.PathLike[str]", Mapping[str, Value]]
+
 
 def text_of(value: Value) -> str:
     """Returns a value as an input file has it."""
@@ -23,16 +27,34 @@ def text_of(value: Value) -> str:
         return "none"
     if isinstance(value, str):
         return value
-    if isinstance(value, bool) or not isinstance(value, (int, float, Sequence)):
-        raise _core.Error(f"an entry takes text, a number or a list of them, not {value!r}")
-    if isinstance(value, Sequence):
-        return ", ".join(text_of(one) for one in value)
-    return repr(float(value)) if isinstance(value, float) else str(value)
+    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
+        words = [text_of(one).split() for one in value]
+        units = {" ".join(word[1:]) for word in words}
+        if len(units) == 1 and all(words):  # "5 MPa", "10 MPa" is 5, 10 MPa
+            return f"{', '.join(word[0] for word in words)} {units.pop()}".strip()
+        return ", ".join(" ".join(word) for word in words)
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return str(int(value)) if isinstance(value, Integral) else repr(float(value))
+    raise _core.Error(f"an entry takes text, a number or a list of them, not {value!r}")
 
 
 def in_si(value: Quantity, quantity: str) -> float:
-    """Returns a stress, length, angle, density or rate in SI; a number is in SI already."""
-    return _core.in_si(value, quantity) if isinstance(value, str) else float(value)
+    """Returns a stress, length, angle, density, rate or duration in SI; a number is in SI already."""
+    return _core.in_si(value, quantity) if isinstance(value, str) else number(value, f"a {quantity}")
+
+
+def number(value: object, name: str) -> float:
+    """Returns a number as it is. Raises Error for what is none."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise _core.Error(f"{name} must be a number, not {value!r}")
+    return float(value)
+
+
+def whole(value: object, name: str, least: int = 0, most: int = 2**64 - 1) -> int:
+    """Returns a whole number as it is. Raises Error for what is none, or out of its bounds."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or not least <= int(value) <= most:
+        raise _core.Error(f"{name} must be a whole number in [{least}, {most}], not {value!r}")
+    return int(value)
 
 
 class Input(MutableMapping[str, str]):
@@ -70,6 +92,15 @@ class Input(MutableMapping[str, str]):
     def __getitem__(self, entry: str) -> str:
         """Returns the value of an entry, be it given or preset."""
         return self.core.get(entry)
+
+    def __copy__(self) -> "Input":
+        return Input(self)
+
+    def __deepcopy__(self, memo: object) -> "Input":
+        return Input(self)
+
+    def __reduce__(self) -> Any:
+        return _unpickled, (self.file, dict(self))
 
     def __setitem__(self, entry: str, value: Value) -> None:
         self.core.set(entry, text_of(value))
@@ -111,6 +142,19 @@ class Input(MutableMapping[str, str]):
         return json.dumps(sections, indent=2, ensure_ascii=False) + "\n"
 
 
+def _unpickled(file: Union[Path, None], given: dict[str, str]) -> Input:
+    input = Input(file)
+    for entry in [one for one in input if one not in given]:
+        del input[entry]
+    input.update(given)
+    return input
+
+
+def as_input(input: InputLike) -> Input:
+    """Returns an input of whatever one may be given as."""
+    return input if isinstance(input, Input) else Input(input)
+
+
 def entries() -> pandas.DataFrame:
     """Returns every entry of the input by its name, with unit, range, preset and meaning."""
     columns = ["name", "unit", "range", "preset", "meaning"]
@@ -120,7 +164,7 @@ def entries() -> pandas.DataFrame:
 
 def set_threads(n: int) -> None:
     """Sets the number of threads that the library works on; 0: all of the machine. Results do not depend on it."""
-    _core.set_threads(n)
+    _core.set_threads(whole(n, "the number of threads", most=10**6))
 
 
 def version() -> str:

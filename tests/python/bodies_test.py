@@ -1,7 +1,9 @@
 """Bodies in this process: that they are those of the command, to the last bit, and that nothing a caller does breaks them."""
 
+import copy
 import gc
 import os
+import pickle
 import signal
 import tempfile
 import threading
@@ -37,10 +39,21 @@ class Inputs(unittest.TestCase):
         self.assertEqual(rock, ROCK)
         self.assertEqual(len(ROCK), 2)
 
+    def test_is_copied_and_pickled(self):
+        rock = feldspar.Input(ROCK)
+        for other in (copy.copy(rock), copy.deepcopy(rock), pickle.loads(pickle.dumps(rock))):
+            self.assertEqual(other, rock)
+            other["Specimen/Width"] = "30 mm"
+            self.assertEqual(rock["Specimen/Width"], "12 mm")
+
     def test_takes_numbers_and_lists(self):
         rock = feldspar.Input({"Seeds/Seeds": [1, 2, 3], "Flat joint/Friction": 0.5, "Tests/Confinements": "5, 10 MPa"})
         self.assertEqual(rock["Seeds/Seeds"], "1, 2, 3")
         self.assertEqual(rock["Flat joint/Friction"], "0.5")
+        rock["Tests/Confinements"] = ["5 MPa", "10 MPa"]
+        self.assertEqual(rock["Tests/Confinements"], "5, 10 MPa")
+        rock["Specimen/Dimension"] = numpy.int64(3)
+        self.assertEqual(rock["Specimen/Dimension"], "3")
 
     def test_refuses_by_one_line(self):
         self.assertIn("a unit is missing", error_of(lambda: feldspar.Input({"Flat joint/Modulus": 70})))
@@ -174,9 +187,37 @@ class Tests(unittest.TestCase):
         specimen = feldspar.Specimen(ROCK)
         self.assertIn("direct_tension", error_of(lambda: specimen.test("direct_tensio")))
         self.assertIn("no confining pressure", error_of(lambda: specimen.test("direct_tension", confinement="5 MPa")))
-        self.assertIn("at least 0", error_of(lambda: specimen.test("triaxial_compression", confinement=-5e6)))
+        self.assertIn("lie in [0", error_of(lambda: specimen.test("triaxial_compression", confinement=-5e6)))
         self.assertIn("unit", error_of(lambda: specimen.test("triaxial_compression", confinement="5")))
-        self.assertIn("between walls", error_of(lambda: feldspar.Specimen(CELL).test("direct_tension")))
+        self.assertIn("needs walls", error_of(lambda: feldspar.Specimen(CELL).test("direct_tension")))
+        self.assertIn("needs a confining pressure", error_of(lambda: specimen.test("triaxial_compression")))
+        self.assertIn("lie in", error_of(lambda: specimen.test("triaxial_compression", confinement=float("inf"))))
+        self.assertIn("not True", error_of(lambda: specimen.test("triaxial_compression", confinement=True)))
+        self.assertIn("a seed must be", error_of(lambda: feldspar.Specimen(ROCK, seed=-1)))
+        self.assertIn("a seed must be", error_of(lambda: feldspar.Specimen(ROCK, seed=1.5)))
+        self.assertIn("no column", error_of(lambda: specimen.test("direct_tension").last("zzz")))
+
+    def test_may_be_read_by_another_thread_while_they_run(self):
+        test = feldspar.Specimen(ROCK).test("uniaxial_compression")
+        test.advance()
+        thread = threading.Thread(target=lambda: test.run(until=1e-3))
+        thread.start()
+        while thread.is_alive():
+            curve, cracks = test.curve, test.cracks
+            self.assertGreater(len(curve), 0)
+            self.assertLessEqual(len(cracks), test.n_cracks)
+        thread.join()
+        whole = feldspar.Specimen(ROCK).test("uniaxial_compression").run(until=1e-3)
+        pandas.testing.assert_frame_equal(test.curve, whole.curve, check_exact=True)
+
+    def test_end_where_each_returns_what_is_true(self):
+        test = feldspar.Specimen(ROCK).test("uniaxial_compression")
+        test.run(each=lambda one: one.curve["axial_stress_Pa"].max() > 20e6)  # of NumPy
+        self.assertAlmostEqual(test.stress, 20e6, delta=3e6)
+
+    def test_are_not_copied(self):
+        test = feldspar.Specimen(ROCK).test("direct_tension")
+        self.assertIn("cannot be copied", error_of(lambda: copy.copy(test)))
 
     def test_are_drawn(self):
         test = feldspar.Specimen(ROCK).test("direct_tension").run()
@@ -219,6 +260,27 @@ class Presses(unittest.TestCase):
         press.strain_to(1e-4)
         self.assertAlmostEqual(press.strain, 1e-4, delta=1e-5)
         self.assertEqual([one["reached"] for one in press.summary["stages"]], [False, True])
+
+    def test_change_the_confinement_on_the_way(self):
+        """The pressure goes evenly with the strain, from where it was: also in the first stage, and after one that was left."""
+        press = feldspar.Specimen(ROCK).press(confinement="5 MPa")
+        pressures = []
+
+        def each(test):
+            pressures.append((test.strain, test.last("lateral_stress_Pa")))
+            return test.strain >= 5e-4
+
+        press.strain_to(1e-3, confinement="25 MPa", each=each)
+        for strain, pressure in pressures[5:]:
+            self.assertAlmostEqual(pressure, 5e6 + 20e6 * strain / 1e-3, delta=1.5e6)  # the walls follow behind
+        reached = press.last("lateral_stress_Pa")
+        press.strain_to(6e-4, confinement="15 MPa", each=lambda test: True)  # one row
+        self.assertAlmostEqual(press.last("lateral_stress_Pa"), reached, delta=1.5e6)
+
+    def test_hold_at_rest(self):
+        """A body without load has energies of round-off alone, which are no fault."""
+        press = feldspar.Specimen(ROCK).press().hold("0.1 ms")
+        self.assertLess(abs(press.stress), 1.0)
 
     def test_are_refused_by_one_line(self):
         press = feldspar.Specimen(ROCK).press()
@@ -285,8 +347,40 @@ class RepresentativeVolumes(unittest.TestCase):
         self.assertIn("not in [-0.1, 0.1]", error_of(lambda: rve.trial([0, float("nan"), 0])))
         self.assertIn("stored state", error_of(lambda: rve.restore(rve.state + b"x")))
         self.assertIn("periodic", error_of(lambda: feldspar.Rve(ROCK)))
+        self.assertIn("periodic", error_of(lambda: feldspar.Rve(feldspar.Specimen(ROCK))))
+        self.assertIn("finite", error_of(lambda: rve.first_break([float("nan"), 0, 0])))
         with self.assertRaises((TypeError, ValueError)):
             rve.trial(["1", "a", "2"])
+
+
+    def test_take_states_and_trials_of_their_own_cell_alone(self):
+        rve = feldspar.Rve(CELL)
+        strain = [0, 1.2 * rve.first_break([0, 1, 0]), 0]
+        trial = rve.relax(strain)
+        other = feldspar.Rve(CELL, seed=2)
+        self.assertIn("another cell", error_of(lambda: other.accept(trial)))
+        rve.accept()
+        state = rve.state
+        self.assertIn("another cell", error_of(lambda: other.restore(state)))
+        changed = bytearray(state)
+        changed[len(state) // 2] ^= 1
+        self.assertIn("was changed", error_of(lambda: other.restore(bytes(changed))))
+        feldspar.Rve(CELL).restore(state)
+
+    def test_forget_a_trial_when_the_next_fails(self):
+        rve = feldspar.Rve(CELL)
+        rve.relax([0, 1e-5, 0])
+        error_of(lambda: rve.relax([0, 1.0, 0]))
+        self.assertIn("nothing has been tried", error_of(rve.accept))
+
+    def test_are_copied_with_their_state(self):
+        rve = feldspar.Rve(CELL)
+        rve.relax([0, 1e-5, 0])
+        rve.accept()
+        other = copy.deepcopy(rve)
+        other.relax([0, 2e-5, 0])
+        other.accept()
+        self.assertAlmostEqual(rve.strain[1], 1e-5, places=15)
 
 
 class ManyVolumes(unittest.TestCase):
@@ -297,7 +391,7 @@ class ManyVolumes(unittest.TestCase):
         strains[:, 1] = numpy.linspace(1e-5, 5e-4, n)
         token, stresses, tangents = volumes.update(strains, tangent=True)
         for k in range(n):
-            rve = feldspar.Rve(specimen=volumes.specimens[k % 2])
+            rve = feldspar.Rve(volumes.specimens[k % 2])
             trial = rve.relax(strains[k], tangent=True)
             assert_array_equal(trial.stress, stresses[k])
             assert_array_equal(trial.tangent, tangents[k])
@@ -326,7 +420,7 @@ class ManyVolumes(unittest.TestCase):
         volumes = feldspar.Volumes(CELL, 2)
         self.assertIn("shape (2, 3)", error_of(lambda: volumes.update([[0, 0, 0]])))
         self.assertIn("not in", error_of(lambda: volumes.update([[0, 0, 1], [0, 0, 0]])))
-        self.assertIn("numbered from 0 to 0", error_of(lambda: feldspar.Volumes(CELL, 2, assigned=[0, 1])))
+        self.assertIn("in [0, 0], not 1", error_of(lambda: feldspar.Volumes(CELL, 2, assigned=[0, 1])))
         token, _, _ = volumes.update(numpy.zeros((2, 3)))
         self.assertEqual(token, 1)  # what was refused left nothing
 

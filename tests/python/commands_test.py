@@ -2,6 +2,7 @@
 
 import filecmp
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -52,6 +53,16 @@ class Commands(unittest.TestCase):
             del rock["Seeds/Seeds"]
             run = feldspar.lab(rock, Path(name) / "run")
             self.assertEqual(len(run.tests), 1)
+
+    def test_take_entries_and_go_on_with_a_run(self):
+        with tempfile.TemporaryDirectory() as name:
+            run = feldspar.lab({**ENTRIES, "Seeds/Seeds": 1}, Path(name) / "run")
+            again = feldspar.lab({**ENTRIES, "Seeds/Seeds": 1}, Path(name) / "run", resume=True)
+            self.assertEqual(len(again.tests), len(run.tests))
+            page = feldspar.report(run, run.folder)
+            self.assertTrue(page.is_file())
+            self.assertNotEqual(page, run.page)
+            shutil.rmtree(page.parent)
 
     def test_raise_the_line_of_the_command(self):
         with tempfile.TemporaryDirectory() as name:
