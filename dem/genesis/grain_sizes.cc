@@ -34,7 +34,7 @@ double volume_of_grain(const SpecimenParameters& wanted, const double radius)
   return wanted.dimension == 2 ? grain_volume<2>(radius, 1.0) : grain_volume<3>(radius, 1.0);
 }
 
-/// By Simpson's rule, which is exact for uniform radii.
+/// Integral by Simpson's rule, which is exact for uniform radii.
 double mean_volume(const SpecimenParameters& wanted)
 {
   constexpr int n = 200;

@@ -132,7 +132,7 @@ class Test:
 
     @property
     def has_ended(self) -> bool:
-        """Whether the test, or the last stage of a press, has ended."""
+        """True once the test, or the last stage of a press, has ended."""
         return self.core.has_ended
 
     @property
@@ -229,7 +229,7 @@ class Press(Test):
 
     @property
     def has_ended(self) -> bool:
-        """Whether the last stage has ended."""
+        """True once the last stage has ended."""
         return self._test.has_ended if self._test else False
 
     def _load(self, each: Each, confinement: Union[Quantity, None], **stage: Union[float, None]) -> Self:
@@ -370,7 +370,7 @@ class Rve:
 
     @property
     def is_intact(self) -> bool:
-        """Whether nothing has broken and no pair of grains has come into contact."""
+        """True while nothing has broken and no pair of grains has come into contact."""
         return self.core.is_intact
 
     @property
