@@ -4,6 +4,7 @@
 #include "laboratory/curve.h"
 #include "laboratory/loading_stages.h"
 #include "library/states.h"
+#include "results/fits/strength_envelopes.h"
 #include "results/folder/csv_tables.h"
 #include "results/folder/summary.h"
 #include "results/folder/table_columns.h"
@@ -11,10 +12,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 namespace feldspar::v1
 {
+std::string fit_envelopes(const std::span<const double> sigma_3, const std::span<const double> sigma_1,
+                          const std::optional<double> tensile_strength)
+{
+  return guarded([&] {
+    if (sigma_3.size() != sigma_1.size())
+      throw InputError(
+        fmt::format("{} values of sigma_3 have {} of sigma_1; there must be one each", sigma_3.size(), sigma_1.size()));
+    StrengthData data;
+    data.tensile_strength = tensile_strength;
+    for (std::size_t k = 0; k < sigma_3.size(); ++k)
+      {
+        if (!(std::isfinite(sigma_3[k]) && std::isfinite(sigma_1[k]) && sigma_1[k] > sigma_3[k]))
+          throw InputError(
+            fmt::format("point {}: sigma_1 = {:g} Pa must be above sigma_3 = {:g} Pa", k, sigma_1[k], sigma_3[k]));
+        data.points.push_back({sigma_3[k], sigma_1[k]});
+        if (sigma_3[k] == 0.0)
+          data.uniaxial_compressive_strength = sigma_1[k];
+      }
+    return envelopes_as_text(fit_strength_envelopes(data));
+  });
+}
+
 namespace
 {
 std::vector<feldspar::Column<CurveSample>> shown_columns()

@@ -125,6 +125,12 @@ PYBIND11_MODULE(_core, module)
     .def_readonly("preset", &EntryDescription::preset)
     .def_readonly("meaning", &EntryDescription::meaning);
   module.def("entries", &entries);
+  module.def(
+    "fit_envelopes",
+    [](const Array& sigma_3, const Array& sigma_1, const std::optional<double> tensile_strength) {
+      return fit_envelopes(span_of(sigma_3), span_of(sigma_1), tensile_strength);
+    },
+    py::arg("sigma_3"), py::arg("sigma_1"), py::arg("tensile_strength"));
 
   py::class_<Input>(module, "Input")
     .def(py::init<>())

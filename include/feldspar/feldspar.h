@@ -80,6 +80,11 @@ struct EntryDescription
 /// Every entry, in the order of the reference.
 FELDSPAR_PUBLIC std::vector<EntryDescription> entries();
 
+/// Hoek–Brown and Mohr–Coulomb envelopes of strengths, compression positive [Pa], as `fits` in summary.json. The uniaxial
+/// strength is the point at sigma_3 = 0.
+FELDSPAR_PUBLIC std::string fit_envelopes(std::span<const double> sigma_3, std::span<const double> sigma_1,
+                                          std::optional<double> tensile_strength = {});
+
 class InputState;
 class SpecimenState;
 class TestState;

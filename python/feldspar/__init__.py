@@ -10,7 +10,7 @@ volumes in tension. Quantities may be given as text with a unit, such as "10 MPa
 """
 
 from feldspar._core import Error
-from feldspar.bodies import Press, Rve, Specimen, Test, Trial, Volumes
+from feldspar.bodies import Press, Rve, Specimen, Test, Trial, Volumes, fit_envelopes
 from feldspar.commands import Run, calibrate, contact, lab, multiscale, report, rve_path
 from feldspar.commands import open as open  # not in __all__, where it would hide Python's own
 from feldspar.inputs import Input, entries, set_threads, version
@@ -28,6 +28,7 @@ __all__ = [
     "calibrate",
     "contact",
     "entries",
+    "fit_envelopes",
     "lab",
     "multiscale",
     "report",

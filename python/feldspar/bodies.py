@@ -280,6 +280,18 @@ def _rate(rate: Union[Quantity, None]) -> Union[float, None]:
     return None if rate is None else in_si(rate, "rate")
 
 
+def fit_envelopes(
+    sigma_3: ArrayLike, sigma_1: ArrayLike, tensile_strength: Union[Quantity, None] = None
+) -> dict[str, Any]:
+    """Returns Hoek–Brown and Mohr–Coulomb envelopes of strengths [Pa], compression positive, as `fits` in summary.json.
+
+    The uniaxial compressive strength is the point at sigma_3 = 0.
+    """
+    tension = None if tensile_strength is None else in_si(tensile_strength, "stress")
+    fits: dict[str, Any] = json.loads(_core.fit_envelopes(sigma_3, sigma_1, tension))
+    return fits
+
+
 class Rve:
     """A representative volume: a periodic specimen that answers a strain by a stress, without time.
 

@@ -273,6 +273,8 @@ Json shear_lines(const std::vector<FinishedTest>& tests)
 
 std::string test_as_json(const FinishedTest& test) { return json_text(describe(test)); }
 
+std::string envelopes_as_text(const StrengthEnvelopes& envelopes) { return json_text(envelopes_as_json(envelopes)); }
+
 void write_summary(const Provenance& provenance, const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes,
                    const std::filesystem::path& file)
 {

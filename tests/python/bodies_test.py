@@ -227,6 +227,17 @@ class Tests(unittest.TestCase):
         self.assertEqual(drawn, test.n_cracks)
 
 
+class Envelopes(unittest.TestCase):
+    def test_give_back_the_rock_that_the_strengths_were_made_of(self):
+        sigma_3 = numpy.array([0, 5, 10, 20, 30, 40]) * 1e6
+        sigma_ci, m = 150e6, 22.0
+        sigma_1 = sigma_3 + sigma_ci * numpy.sqrt(m * sigma_3 / sigma_ci + 1)
+        fit = feldspar.fit_envelopes(sigma_3, sigma_1)["intact"]["without_tension_point"]
+        assert_allclose([fit["sigma_ci_Pa"], fit["m"]], [sigma_ci, m], rtol=1e-6)
+        self.assertIn("one each", error_of(lambda: feldspar.fit_envelopes([0, 1e6], [1e8])))
+        self.assertIn("must be above", error_of(lambda: feldspar.fit_envelopes([0, 5e6], [1e8, float("nan")])))
+
+
 class Presses(unittest.TestCase):
     def test_follow_stages_as_a_loading_table_does(self):
         """The same stages by a table of the command give the same rows to the last bit."""
