@@ -1,6 +1,6 @@
 // Times of calls of the library's face from C++, as JSON, for benchmarks/python_calls.py: seconds of one call.
 
-#include "feldspar/feldspar.h"
+#include <feldspar/feldspar.h>
 
 #include <algorithm>
 #include <cstdio>

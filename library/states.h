@@ -1,7 +1,7 @@
 #pragma once
 
 #define FELDSPAR_IMPLEMENTS_FACE
-#include "feldspar/feldspar.h"
+#include <feldspar/feldspar.h>
 
 #include "app/input/given_entries.h"
 #include "app/input/input.h"

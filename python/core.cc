@@ -1,4 +1,4 @@
-#include "feldspar/feldspar.h"
+#include <feldspar/feldspar.h>
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>

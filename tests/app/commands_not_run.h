@@ -22,6 +22,10 @@ inline const std::vector<NotRun> commands_not_run{
   {"CONTRIBUTING.md", "scripts/compare-bits.py OLD/feldspar NEW/feldspar", "needs another build of the program"},
   {"CONTRIBUTING.md", "scripts/compare-speed.py OLD_BUILD NEW_BUILD", "needs another build of the program"},
   {"CONTRIBUTING.md", "scripts/compare-builds.sh OLD_COMMIT NEW_COMMIT", "builds the program twice; an hour"},
+  {"docs/library.md", "cmake -S examples/library -B build/examples -DCMAKE_PREFIX_PATH=/usr/local",
+   "needs an installed library; tests/library/installed.sh runs it"},
+  {"docs/library.md", "cmake --build build/examples", "needs that configuration"},
+  {"docs/library.md", "build/examples/uniaxial_compression", "needs that build"},
   {"docs/cluster.md",
    "cmake -S . -B build/cluster -G Ninja -DBUILD_TESTING=OFF -DFELDSPAR_LEVEL=x86-64-v3 -DDEAL_II_DIR=DEALII "
    "-DCMAKE_PREFIX_PATH=LIBRARIES",

@@ -19,6 +19,11 @@ fail()
 "$here/build/uniaxial_compression" >"$here/uniaxial.csv"
 grep -Eq '^# compressive strength [0-9]+\.[0-9]+ MPa$' "$here/uniaxial.csv" || fail "no strength: $(tail -1 "$here/uniaxial.csv")"
 
+# The first crack ends the rise; a mistake is one line.
+"$here/build/one_point" >"$here/point.csv"
+awk -F, '/^[0-9]/ { if ($2 + 0 > peak) peak = $2 + 0; last = $2 + 0 } /^# / { refused = $0 }
+  END { exit !(peak > 5 && last < 0.5 * peak && refused ~ /not in/) }' "$here/point.csv" || fail "$(cat "$here/point.csv")"
+
 # Elastic until the first segment breaks: the force doubles with the displacement. Later bonds break, and the force falls.
 "$here/build/notched_plate" >"$here/plate.csv"
 awk -F, 'NR == 2 { first = $2 }
