@@ -261,8 +261,9 @@ void check_flaws(const Input& input, const GivenEntries& values)
   for (const char* const entry : {"Traces origin", "Traces angle", "Traces scale", "Smooth layers"})
     if (input.flaws.traces.empty() && values.has("Flaws", entry))
       throw values.error("Flaws", entry, "is of a joint map; give Traces file too");
-  for (const auto& [layer, sides] : input.flaws.map.smooth_layers)
-    if (std::none_of(input.flaws.traces.begin(), input.flaws.traces.end(),
+  for (const auto& smooth : input.flaws.map.smooth_layers)
+    if (const std::string& layer = smooth.first;
+        std::none_of(input.flaws.traces.begin(), input.flaws.traces.end(),
                      [&](const Shape& trace) { return std::get<ClosedFlaw>(trace).map_layer == layer; }))
       throw values.error("Flaws", "Smooth layers",
                          fmt::format("no trace of the map is on a layer {}", in_quotes(layer)));

@@ -484,7 +484,7 @@ std::vector<MeasuredCurve> measured_curves(const std::vector<std::filesystem::pa
   std::vector<MeasuredCurve> curves;
   for (std::size_t k = 0; k < files.size(); ++k)
     {
-      MeasuredCurve& curve = curves.emplace_back(files[k]);
+      MeasuredCurve& curve = curves.emplace_back(MeasuredCurve{.file = files[k]});
       if (!sizes.empty())
         curve.size = parse_cylinder_size(sizes[sizes.size() > 1 ? k : 0]);
       if (tests.empty())

@@ -5,6 +5,7 @@
 #include "app/programme/specimen_source.h"
 #include "app/run/run_record.h"
 #include "base/input_error.h"
+#include "base/ranks/ranks.h"
 #include "coupling/sample/grain_material.h"
 #include "laboratory/loading_stages.h"
 

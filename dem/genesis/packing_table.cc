@@ -17,7 +17,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <string>
 #include <string_view>
 
@@ -211,8 +210,8 @@ private:
     else if (style.front() == "hybrid" && std::ranges::find(style, "sphere") != style.end())
       {
         all.names = {"id", "type", "x", "y", "z"};
-        for (const std::string_view part : style | std::views::drop(1))
-          if (part == "sphere")
+        for (std::size_t k = 1; k < style.size(); ++k)
+          if (const std::string_view part = style[k]; part == "sphere")
             all.names.insert(all.names.end(), {"diameter", "density"});
           else if (part == "bond" || part == "angle" || part == "molecular")
             all.names.emplace_back("molecule");
@@ -372,11 +371,13 @@ std::vector<PackedBond> bonds_of(const PackingLines& lines, const std::string& f
   std::map<double, std::size_t> place_of; // the column of the number is the first one of atoms
   for (std::size_t k = 0; k < lines.rows.size(); ++k)
     place_of[lines.rows[k].values.front()] = k;
-  for (const auto& [line, values] : lines.bonds)
+  for (const NumberedLine& bond : lines.bonds)
     {
+      const std::size_t line = bond.line;
       const auto grain = [&](const std::size_t column) {
-        const auto found =
-          values.size() < 4 || std::isnan(values[column]) ? place_of.end() : place_of.find(values[column]);
+        const auto found = bond.values.size() < 4 || std::isnan(bond.values[column])
+                             ? place_of.end()
+                             : place_of.find(bond.values[column]);
         if (found == place_of.end())
           throw InputError(fmt::format("{}:{}: a bond is a line of its number, its type, and the numbers of two atoms "
                                        "of the file",

@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "report/pictures/curves/curve_pictures.h"
+#include "report/pictures/figures.h"
 #include "report/sections/test_tables.h"
 #include "results/folder/result_folder.h"
 

@@ -218,7 +218,8 @@ PageBlock rock_mass_block(const Findings& findings)
   PageBlock block;
   if (!experiment.rock_mass)
     return block;
-  const auto& [strength_index, disturbance] = *experiment.rock_mass;
+  const double strength_index = experiment.rock_mass->strength_index;
+  const double disturbance = experiment.rock_mass->disturbance;
   Table table{
     "rock_mass",
     fmt::format("Rock mass of GSI {:g} and D {:g} (Hoek, Carranza-Torres and Corkum 2002), from the intact form "

@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "results/fits/strength_envelopes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
