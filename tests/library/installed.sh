@@ -8,7 +8,7 @@ here=$(mktemp -d)
 trap 'rm -rf "$here"' EXIT
 
 cmake --install "$1" --prefix "$here/prefix" >/dev/null
-cmake -S "$source_dir/examples/library" -B "$here/build" -DCMAKE_PREFIX_PATH="$here/prefix" >/dev/null
+cmake -S "$source_dir/examples/library" -B "$here/build" -G Ninja -DCMAKE_PREFIX_PATH="$here/prefix" >/dev/null
 cmake --build "$here/build" --parallel 2
 
 fail()
