@@ -61,17 +61,20 @@ std::string duration_in_words(const double seconds)
                             : fmt::format("{:.0f} h", seconds / 3600.0);
 }
 
-std::vector<std::string_view> split_at_commas(std::string_view text)
+std::vector<std::string_view> split_at(const std::string_view separator, std::string_view text)
 {
   std::vector<std::string_view> pieces;
-  for (std::size_t comma = text.find(','); comma != std::string_view::npos; comma = text.find(','))
+  for (;;)
     {
-      pieces.push_back(trim(text.substr(0, comma)));
-      text.remove_prefix(comma + 1);
+      const std::size_t end = text.find(separator);
+      pieces.push_back(trim(text.substr(0, end)));
+      if (end == std::string_view::npos)
+        return pieces;
+      text.remove_prefix(end + separator.size());
     }
-  pieces.push_back(trim(text));
-  return pieces;
 }
+
+std::vector<std::string_view> split_at_commas(const std::string_view text) { return split_at(",", text); }
 
 bool is_decimal_number(std::string_view text)
 {

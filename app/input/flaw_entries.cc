@@ -260,13 +260,11 @@ std::optional<SmoothSides> read_smooth_sides(const Quantities& given)
 }
 
 /// LAYER: smooth ... | LAYER: smooth ...
-std::map<std::string, SmoothSides> read_layers(std::string_view text)
+std::map<std::string, SmoothSides> read_layers(const std::string_view text)
 {
   std::map<std::string, SmoothSides> layers;
-  for (;;)
+  for (const std::string_view piece : split_at("|", text))
     {
-      const std::size_t bar = text.find('|');
-      const std::string_view piece = trim(text.substr(0, bar));
       const std::size_t colon = std::min(piece.find(':'), piece.size());
       const std::string layer = in_small_letters(trim(piece.substr(0, colon)));
       const auto words = words_of(piece.substr(std::min(colon + 1, piece.size())));
@@ -277,10 +275,8 @@ std::map<std::string, SmoothSides> read_layers(std::string_view text)
                       in_quotes(piece)));
       if (!layers.emplace(layer, *sides).second)
         throw InputError(fmt::format("{} is given twice", layer));
-      if (bar == std::string_view::npos)
-        return layers;
-      text.remove_prefix(bar + 1);
     }
+  return layers;
 }
 
 Shape read_closed_flaw(const Quantities& given)
@@ -423,17 +419,17 @@ std::vector<Entry<Input>> flaw_entries()
          input.flaws.text = text == none ? "" : joined(words_of(text), 0, words_of(text).size());
        },
        [](const Input& input) { return input.flaws.text.empty() ? std::string(none) : input.flaws.text; }},
-     "what is put into the finished specimen; e.g. `hole centre 25, 50 mm radius 5 mm` (or `semi-axes 5, 3 mm "
-     "angle 30 deg`, or `corners 20, 40, 30, 40, 25, 50 mm`), `slot from 25, 0 mm to 25, 12 mm width 2 mm`, "
-     "`closed flaw centre 25, 50 mm length 12 mm angle 45 deg` (or `from`, `to`, or `points`), `joint set angle "
-     "30 deg spacing 10 mm persistence 0.7 trace-length 8 mm seed 1`; in three dimensions these run through the "
-     "depth, and there are `sphere centre 25, 25, 50 mm radius 5 mm` and `disc flaw centre 25, 25, 50 mm radius "
-     "6 mm dip 45 deg dip-direction 0 deg`, and `disc set dip 60 deg dip-direction 30 deg fisher 20 radius 4 mm number 30 "
-     "seed 1`, discs with random centres and Fisher's distribution of normals; a closed flaw, disc flaw or set may end with "
-     "`smooth`: its joints "
-     "then have its plane, as section Smooth joint says, or as its own words do, e.g. `smooth friction 0.6 dilation 5 "
-     "deg normal-stiffness 50 GPa/mm shear-stiffness 20 GPa/mm cohesion 1 MPa tensile-strength 0.5 MPa friction-angle "
-     "31 deg`, and are bonded where it has a cohesion or tensile strength; angles are from the first axis towards that of the tests",
+     "what is put into the finished specimen, in any number. Openings: `hole centre 25, 50 mm radius 5 mm`, with "
+     "`semi-axes 5, 3 mm angle 30 deg` or `corners 20, 40, 30, 40, 25, 50 mm` in place of the radius, and `slot from 25, 0 mm "
+     "to 25, 12 mm width 2 mm`. Unbonded joints: `closed flaw centre 25, 50 mm length 12 mm angle 45 deg`, or with `from` and "
+     "`to`, or `points`. Many of them: `joint set angle 30 deg spacing 10 mm persistence 0.7 trace-length 8 mm seed 1`. In three "
+     "dimensions all these run through the depth. There are also `sphere centre 25, 25, 50 mm radius 5 mm` and `disc flaw "
+     "centre 25, 25, 50 mm radius 6 mm dip 45 deg dip-direction 0 deg`. A `disc set dip 60 deg dip-direction 30 deg fisher 20 "
+     "radius 4 mm number 30 seed 1` has random centres, and normals of Fisher's distribution. A closed flaw, disc flaw or set "
+     "that ends with `smooth` has joints in its plane, as section Smooth joint says. Words of its own may follow: `smooth "
+     "friction 0.6 dilation 5 deg normal-stiffness 50 GPa/mm shear-stiffness 20 GPa/mm cohesion 1 MPa tensile-strength 0.5 MPa "
+     "friction-angle 31 deg`. With a cohesion or tensile strength they are bonded. Angles are from the first axis towards that "
+     "of the tests",
      {.varies = true, .of_specimen = true, .basic = true}},
     {"Traces file",
      Entry<Input>::Text{"", std::string(none_or_a_file),

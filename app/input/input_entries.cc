@@ -5,7 +5,6 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
-#include "results/quantities.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,8 +12,6 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
-#include <map>
-#include <numbers>
 #include <set>
 #include <system_error>
 
@@ -79,20 +76,6 @@ std::string write_confinements(const std::vector<double>& pressures)
   for (const double p : pressures)
     text += fmt::format("{}{}", text.empty() ? "" : ", ", format_number(p / 1e6));
   return text + " MPa";
-}
-
-/// The pieces between separators, trimmed.
-std::vector<std::string_view> split_at(const std::string_view separator, std::string_view text)
-{
-  std::vector<std::string_view> pieces;
-  for (;;)
-    {
-      const std::size_t end = text.find(separator);
-      pieces.push_back(trim(text.substr(0, end)));
-      if (end == std::string_view::npos)
-        return pieces;
-      text.remove_prefix(end + separator.size());
-    }
 }
 
 std::vector<std::string> read_variant_entries(const std::string_view text)
@@ -168,63 +151,6 @@ std::vector<std::optional<double>> read_direction(const std::string_view text)
   return direction;
 }
 
-constexpr std::string_view all_targets = "all";
-constexpr std::string_view fixed_value = "fixed";
-
-std::vector<std::string> read_targets(const std::string_view text)
-{
-  std::vector<std::string> targets;
-  if (text == all_targets)
-    return targets;
-  for (const std::string_view piece : split_at_commas(text))
-    {
-      if (!is_plain_name(piece))
-        throw InputError(
-          fmt::format("{} is no name of a figure; an example is youngs_modulus, tensile_strength", in_quotes(piece)));
-      if (std::find(targets.begin(), targets.end(), piece) != targets.end())
-        throw InputError(fmt::format("{} is listed twice", piece));
-      targets.emplace_back(piece);
-    }
-  return targets;
-}
-
-/// `fixed`, or the lower and the upper bound of an unknown.
-Entry<CalibrationParameters> bounds_entry(const std::string_view name,
-                                          std::optional<Bounds> CalibrationParameters::*const member, const Range range,
-                                          const Dimension* const dimension, const std::string_view meaning)
-{
-  using P = CalibrationParameters;
-  const std::string_view unit = dimension ? "deg" : ""; // a literal: the entry keeps the view
-  const auto read = [=](P& wanted, const std::string_view text) {
-    wanted.*member = std::nullopt;
-    if (text == fixed_value)
-      return;
-    std::vector<double> values;
-    if (dimension)
-      values = parse_quantities(text, *dimension);
-    else
-      for (const std::string_view piece : split_at_commas(text))
-        values.push_back(parse_number(piece));
-    if (values.size() != 2 || !(values[0] < values[1]))
-      throw InputError(
-        fmt::format("must be fixed, or the lower and the upper bound, e.g. {}", dimension ? "0, 40 deg" : "0.2, 1.2"));
-    for (const double value : values)
-      if (!range.contains(dimension ? value * 180.0 / std::numbers::pi : value))
-        throw InputError(fmt::format("bounds must lie in {}{:g}, {:g}{}{}{}", range.left, range.lower, range.upper,
-                                     range.right, unit.empty() ? "" : " ", unit));
-    wanted.*member = Bounds{values[0], values[1]};
-  };
-  const auto write = [=](const P& wanted) {
-    const auto& bounds = wanted.*member;
-    if (!bounds)
-      return std::string(fixed_value);
-    const double scale = dimension ? 180.0 / std::numbers::pi : 1.0;
-    return fmt::format("{}, {}{}{}", format_number(bounds->lower * scale), format_number(bounds->upper * scale),
-                       unit.empty() ? "" : " ", unit);
-  };
-  return {name, Entry<P>::Text{unit, "fixed, or lower and upper bound", read, write}, meaning, {}};
-}
-
 std::string write_direction(const std::vector<std::optional<double>>& direction)
 {
   std::string text;
@@ -233,90 +159,7 @@ std::string write_direction(const std::vector<std::optional<double>>& direction)
   return text.empty() ? std::string(none) : text;
 }
 
-/// SIZE PASSING %; SIZE PASSING %
-std::vector<SievePoint> read_sieve_curve(const std::string_view text)
-{
-  std::vector<SievePoint> curve;
-  if (text == none)
-    return curve;
-  for (const std::string_view piece : split_at(";", text))
-    {
-      const std::string_view numbers = trim(piece.substr(0, piece.size() - std::size_t(piece.ends_with('%'))));
-      const std::size_t space = numbers.rfind(' ');
-      if (!piece.ends_with('%') || space == std::string_view::npos)
-        throw InputError(fmt::format("{} is no point of a sieve curve; write size and share of the mass that passes, "
-                                     "e.g. 2 mm 35 %",
-                                     in_quotes(piece)));
-      curve.push_back(
-        {parse_quantity(trim(numbers.substr(0, space)), length), parse_number(numbers.substr(space + 1)) / 100.0});
-      if (curve.size() > 1 ? !(curve.back().size > curve[curve.size() - 2].size &&
-                               curve.back().passing >= curve[curve.size() - 2].passing)
-                           : !(curve.back().size > 0.0))
-        throw InputError(fmt::format("{}: sizes must be above 0 and increase, and no share may be below that before",
-                                     in_quotes(piece)));
-    }
-  if (curve.size() < 2 || curve.front().passing != 0.0 || curve.back().passing != 1.0)
-    throw InputError(
-      "must begin with 0 % at the size of the smallest grains and end with 100 % at that of the largest");
-  constexpr double largest_ratio = 100.0; // as of Radius ratio
-  if (curve.back().size > largest_ratio * curve.front().size)
-    throw InputError(fmt::format("the largest size must be at most {:g} times the smallest", largest_ratio));
-  return curve;
-}
-
-std::string write_sieve_curve(const std::vector<SievePoint>& curve)
-{
-  std::string text;
-  for (const auto& [size, passing] : curve)
-    text += fmt::format("{}{} {} %", text.empty() ? "" : "; ", format_quantity(size, "mm", length),
-                        format_number(100.0 * passing));
-  return text.empty() ? std::string(none) : text;
-}
-
-/// BOUNDARY = GROUP, GROUP; BOUNDARY = GROUP
-std::map<std::string, std::vector<std::string>> read_mesh_names(const std::string_view text)
-{
-  std::map<std::string, std::vector<std::string>> names;
-  if (text == none)
-    return names;
-  static const std::vector<std::string_view> known{"left", "right", "bottom", "top", "axis", "side"};
-  for (const std::string_view piece : split_at(";", text))
-    {
-      const std::size_t equals = std::min(piece.find('='), piece.size());
-      const std::string_view name = trim(piece.substr(0, equals));
-      if (std::find(known.begin(), known.end(), name) == known.end())
-        throw InputError(
-          fmt::format("{} is no boundary of a sample; write {} = NAME", in_quotes(name), fmt::join(known, ", ")));
-      const auto groups = split_at_commas(piece.substr(std::min(equals + 1, piece.size())));
-      if (std::find(groups.begin(), groups.end(), "") != groups.end())
-        throw InputError(fmt::format("{} lacks the name of a group of the mesh; write {} = NAME", name, name));
-      if (!names.emplace(name, std::vector<std::string>(groups.begin(), groups.end())).second)
-        throw InputError(fmt::format("{} is given twice; separate several groups by commas", name));
-    }
-  return names;
-}
-
-std::string write_mesh_names(const std::map<std::string, std::vector<std::string>>& names)
-{
-  std::string text;
-  for (const auto& [name, groups] : names)
-    text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", name, fmt::join(groups, ", "));
-  return text.empty() ? std::string(none) : text;
-}
 } // namespace
-
-Entry<SampleParameters> mesh_names_entry()
-{
-  using P = SampleParameters;
-  return {"Mesh names",
-          Entry<P>::Text{"", "none, or BOUNDARY = GROUP, several separated by semicolons",
-                         [](P& sample, const std::string_view text) { sample.mesh_names = read_mesh_names(text); },
-                         [](const P& sample) { return write_mesh_names(sample.mesh_names); }},
-          "physical groups of the mesh file that are the boundaries of the sample, where they have other names there: "
-          "`left = west; bottom = base_1, base_2`; a group without a name has its number",
-          {},
-          id_of_member(&P::mesh_names)};
-}
 
 std::vector<Entry<Input>> test_list_entries()
 {
@@ -334,29 +177,6 @@ std::vector<Entry<Input>> test_list_entries()
      "pressures of the triaxial tests, normal stresses of direct shear, separated by commas, and ranges such as 10..60 MPa "
      "step 10",
      {.basic = true}}};
-}
-
-Entry<SpecimenParameters> sieve_curve_entry()
-{
-  using P = SpecimenParameters;
-  const auto excluded = [](const std::string_view other) {
-    return Demand{"",
-                  other,
-                  {},
-                  "gives the sizes of all grains; leave out Minimum radius, Radius ratio and Size distribution"};
-  };
-  return {"Sieve curve",
-          Entry<P>::Text{"", "none, or SIZE PASSING %, separated by semicolons",
-                         [](P& wanted, const std::string_view text) { wanted.sieve_curve = read_sieve_curve(text); },
-                         [](const P& wanted) { return write_sieve_curve(wanted.sieve_curve); }},
-          "diameters of grains and the share of the mass in smaller ones (in the plane: of the area), from 0 to 100 %, "
-          "instead of the radii: `0.8 mm 0 %; 1.2 mm 40 %; 2 mm 100 %`; between two points the mass is spread evenly "
-          "over the logarithm of the size",
-          {.varies = true,
-           .of_specimen = true,
-           .demands = {excluded("Specimen/Minimum radius"), excluded("Specimen/Radius ratio"),
-                       excluded("Specimen/Size distribution")}},
-          id_of_member(&P::sieve_curve)};
 }
 
 Entry<Input> checkpoint_entry()
@@ -481,38 +301,6 @@ std::vector<Entry<StrainPathParameters>> strain_path_entries()
                   "without a rate, or explicit dynamics as in the laboratory", varies),
     entry::integer("Steps per millistrain", &P::steps_per_millistrain, {'[', 1.0, 1e8, ']'},
                    "of explicit dynamics, for 1e-3 of the largest component of the strain", varies)};
-}
-
-std::vector<Entry<CalibrationParameters>> calibration_list_entries()
-{
-  using P = CalibrationParameters;
-  constexpr double most = 1e6;
-  static const std::string meaning_of_targets = [] {
-    std::vector<std::string_view> names;
-    for (const RockProperty& property : rock_properties)
-      if (property.scale && (names.empty() || names.back() != property.target())) // a choice of several figures
-        names.push_back(property.target());
-    return fmt::format("figures of the experiment in the reference file that `feldspar calibrate` is to reach: {}, "
-                       "strength_at_P_MPa; all: those that the tests give",
-                       fmt::join(names, ", "));
-  }();
-  return {{"Targets",
-           Entry<P>::Text{"", "all, or names of figures",
-                          [](P& wanted, const std::string_view text) { wanted.targets = read_targets(text); },
-                          [](const P& wanted) {
-                            return wanted.targets.empty() ? std::string(all_targets)
-                                                          : fmt::format("{}", fmt::join(wanted.targets, ", "));
-                          }},
-           meaning_of_targets,
-           {.basic = true}},
-          bounds_entry("Stiffness ratio", &P::stiffness_ratio, {'(', 0.0, most, ')'}, nullptr, "of the joints"),
-          bounds_entry("Cohesion ratio", &P::cohesion_ratio, {'(', 0.0, most, ')'}, nullptr,
-                       "bond cohesion over bond tensile strength"),
-          bounds_entry("Bond friction angle", &P::bond_friction_angle, {'[', 0.0, 90.0, ')'}, &angle,
-                       "by which compression adds to the shear strength of a bond"),
-          bounds_entry("Friction", &P::friction, {'[', 0.0, most, ')'}, nullptr, "of broken segments"),
-          bounds_entry("Installation gap ratio", &P::installation_gap_ratio, {'(', 0.0, 1.0, ']'}, nullptr,
-                       "largest gap that gets a joint, over the mean radius")};
 }
 
 std::vector<Entry<ReportLabels>> label_entries()

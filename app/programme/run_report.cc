@@ -1,6 +1,6 @@
 #include "app/programme/run_report.h"
 
-#include "app/input/laboratory_curve.h"
+#include "app/input/curves/laboratory_curve.h"
 #include "app/run/interrupt.h"
 #include "app/screen/print_result.h"
 #include "base/append.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/input/laboratory_curve.h"
+#include "app/input/curves/laboratory_curve.h"
 #include "app/screen/progress.h"
 #include "results/fits/run_envelopes.h"
 #include "results/folder/reference.h"

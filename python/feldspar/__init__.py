@@ -10,10 +10,11 @@ volumes in tension. Quantities may be given as text with a unit, such as "10 MPa
 """
 
 from feldspar._core import Error
-from feldspar.bodies import Press, Rve, Specimen, Test, Trial, Volumes, fit_envelopes
+from feldspar.bodies import Press, Specimen, Test, fit_envelopes
 from feldspar.commands import Run, calibrate, contact, lab, multiscale, report, rve_path
 from feldspar.commands import open as open  # not in __all__, where it would hide Python's own
 from feldspar.inputs import Input, entries, set_threads, version
+from feldspar.volumes import Rve, Trial, Volumes
 
 __all__ = [
     "Error",

@@ -1,8 +1,8 @@
 #include "tests/fuzz/readers.h"
 
+#include "app/input/curves/laboratory_curve.h"
 #include "app/input/flaw_entries.h"
 #include "app/input/input.h"
-#include "app/input/laboratory_curve.h"
 #include "app/input/maps/traces.h"
 #include "app/input/strain_path.h"
 #include "app/programme/reference_body.h"

@@ -1,7 +1,7 @@
 // Files as testing machines, other codes, spreadsheets and programs for statistics write them, which are seeds of the fuzzers
 // too: each is read to the right numbers, or refused by name. They were made for these tests, after the formats.
 
-#include "app/input/laboratory_curve.h"
+#include "app/input/curves/laboratory_curve.h"
 #include "base/input_error.h"
 #include "dem/genesis/packing_table.h"
 

@@ -1,5 +1,6 @@
 // Units in the headers of tables: the same numbers as in SI.
 
+#include "app/input/maps/traces.h"
 #include "app/input/strain_path.h"
 #include "base/input_error.h"
 #include "base/table/csv.h"
@@ -11,6 +12,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <variant>
 
 namespace feldspar
 {
@@ -83,6 +85,20 @@ TEST_F(HeaderUnits, OfOtherTables)
   EXPECT_DOUBLE_EQ(rows[0][0], 1e-3);
   EXPECT_DOUBLE_EQ(rows[0][1], 2e-6);
   EXPECT_DOUBLE_EQ(rows[0][2], 0.5 * std::numbers::pi);
+}
+
+TEST_F(HeaderUnits, OfJointMaps)
+{
+  const Traces map =
+    read_traces(folder.write("map.csv", "layer,to x [mm],to_y [mm],from_x [mm],From y (mm)\nBedding,3,4,1,2\n"));
+  ASSERT_EQ(map.shapes.size(), 1u);
+  const auto& trace = std::get<ClosedFlaw>(map.shapes[0]);
+  EXPECT_EQ(trace.map_layer, "bedding");
+  EXPECT_DOUBLE_EQ(trace.points[0][0], 1e-3);
+  EXPECT_DOUBLE_EQ(trace.points[0][1], 2e-3);
+  EXPECT_DOUBLE_EQ(trace.points[1][0], 3e-3);
+  EXPECT_DOUBLE_EQ(trace.points[1][1], 4e-3);
+  refuse([&] { read_traces(folder.write("m.csv", "from_x,from_y,to_x,to_y\n0,0,1,1\n")); }, "\"from_x\": has no unit");
 }
 } // namespace
 } // namespace feldspar

@@ -85,9 +85,9 @@ const std::vector<Room> rooms = {
 };
 
 /// The rooms of the command, which may include all libraries, from the ground up; each sees those before it.
-const std::vector<std::string> rooms_of_the_command = {"app/processes",   "app/input/maps", "app/input",
-                                                       "app/screen",      "app/run",        "app/programme",
-                                                       "app/calibration", "app/commands"};
+const std::vector<std::string> rooms_of_the_command = {"app/processes", "app/input/maps",  "app/input/curves",
+                                                       "app/input",     "app/screen",      "app/run",
+                                                       "app/programme", "app/calibration", "app/commands"};
 
 /// Folders that may include any room, but for those named.
 const std::vector<std::string> above_all = {"app", "benchmarks", "library", "python", "tests"};

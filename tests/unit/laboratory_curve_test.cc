@@ -1,6 +1,6 @@
 // Tables as testing machines, spreadsheets and programs for statistics write them, and the curves that they hold.
 
-#include "app/input/laboratory_curve.h"
+#include "app/input/curves/laboratory_curve.h"
 #include "base/input_error.h"
 #include "base/table/csv.h"
 #include "dem/lab/protocols/protocols.h"

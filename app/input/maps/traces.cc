@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace feldspar
 {
@@ -20,11 +21,15 @@ Traces read_table(const std::filesystem::path& file)
   Traces traces;
   CsvReader table(file);
   const bool has_layers = table.has("layer");
-  std::array<std::size_t, 4> places;
-  const auto names = split_at_commas(header_of_traces);
-  std::transform(names.begin(), names.end(), places.begin(), [&](const auto name) { return table.place(name); });
-  for (const std::string_view column : table.header())
-    if (!column.empty() && column != "layer" && std::find(names.begin(), names.end(), column) == names.end())
+  std::vector<std::size_t> places;
+  for (const std::string_view name : split_at_commas(header_of_traces))
+    if (const auto place = table.find_in_si(name))
+      places.push_back(*place);
+    else
+      throw InputError(fmt::format("{}:{}: there is no column {}", file.string(), table.line_of_header(), name));
+  for (std::size_t c = 0; c < table.header().size(); ++c)
+    if (const std::string_view column = table.name_of(c);
+        !column.empty() && column != "layer" && std::ranges::find(places, c) == places.end())
       throw InputError(fmt::format("{}:{}: {} is no column of a joint map; they are {} and layer", file.string(),
                                    table.line_of_header(), in_quotes(column), header_of_traces));
   while (table.next())

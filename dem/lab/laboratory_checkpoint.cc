@@ -1,0 +1,106 @@
+#include "base/system/hdf5_archive.h"
+#include "dem/lab/laboratory_run.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+/// The state of a running test in a file.
+namespace feldspar
+{
+template <int dim>
+template <typename Archive>
+void LabTest<dim>::transfer(Archive& archive)
+{
+  auto dynamics = archive.subgroup("dynamics");
+  set_up.dynamics.transfer(dynamics);
+  archive.bytes("curve", record.curve);
+  archive.bytes("cracks", record.cracks);
+  for (std::size_t c = 0; c < gauge_positions.size(); ++c)
+    archive.array(fmt::format("gauge_position_{}", "xyz"[c]), gauge_positions[c]);
+  archive.value("wall_time", wall_time);
+  archive.value("time_at_start", time_at_start);
+  archive.value("time_of_last_row", time_of_last_row);
+  archive.value("lateral_stress_over_time", lateral_stress_over_time);
+  archive.value("n_tension", n_tension);
+  archive.value("n_shear", n_shear);
+  if (set_up.loading.drive_stage)
+    {
+      archive.value("shortening_at_start", shortening_at_start);
+      stage_walk.transfer(archive);
+    }
+  if (set_up.loading.opening)
+    archive.value("opening_at_start", opening_at_start);
+  std::uint32_t has_ended = ended;
+  archive.value("ended", has_ended);
+  ended = has_ended;
+  archive.array("n_broken_segments", n_broken_segments);
+  archive.value("rows_between_snapshots", rows_between_snapshots);
+  std::uint64_t n_snapshots = snapshots.size();
+  archive.value("n_snapshots", n_snapshots);
+  snapshots.resize(n_snapshots);
+  for (std::size_t k = 0; k < n_snapshots; ++k)
+    {
+      Snapshot& snapshot = snapshots[k];
+      auto group = archive.subgroup(fmt::format("snapshot_{}", k));
+      group.value("step", snapshot.step);
+      group.value("axial_strain", snapshot.axial_strain);
+      group.value("axial_stress", snapshot.axial_stress);
+      for (int c = 0; c < dim; ++c)
+        group.array(fmt::format("position_{}", "xyz"[c]), snapshot.position[c]);
+      for (std::size_t c = 0; c < snapshot.stress.size(); ++c)
+        group.array(fmt::format("stress_{}", c), snapshot.stress[c]);
+      group.array("fragment", snapshot.fragment);
+      group.array("n_broken_segments", snapshot.n_broken_segments);
+    }
+}
+
+namespace
+{
+const std::string checkpoint_format = "feldspar checkpoint";
+
+/// The values that must agree before the rest is read.
+template <typename Archive>
+void transfer_identity(Archive& archive, const std::string& identity)
+{
+  std::string format = checkpoint_format;
+  std::string whose = identity;
+  archive.text("format", format);
+  archive.text("identity", whose);
+  if (format != checkpoint_format)
+    throw InputError("another kind of file");
+  if (whose != identity)
+    throw InputError("of another test, input or version of this program");
+}
+} // namespace
+
+template <int dim>
+void LabTest<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  write_hdf5(file, [&](Hdf5Writer& archive) {
+    transfer_identity(archive, identity);
+    transfer(archive);
+  });
+}
+
+template <int dim>
+void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  read_hdf5(file, "a checkpoint of this test", [&](Hdf5Reader& archive) {
+    transfer_identity(archive, identity);
+    transfer(archive);
+  });
+  start_gauge();
+  for (const CurveSample& row : record.curve)
+    {
+      energy_watch.has_grown_without_work(row.energies);
+      stop_rule.add(row);
+    }
+  seated = true;
+}
+
+template void LabTest<2>::write_checkpoint(const std::filesystem::path&, const std::string&);
+template void LabTest<3>::write_checkpoint(const std::filesystem::path&, const std::string&);
+template void LabTest<2>::read_checkpoint(const std::filesystem::path&, const std::string&);
+template void LabTest<3>::read_checkpoint(const std::filesystem::path&, const std::string&);
+} // namespace feldspar
