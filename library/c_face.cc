@@ -88,13 +88,14 @@ feldspar_volumes* feldspar_volumes_new(const feldspar_specimen* const* const spe
 int feldspar_volumes_dimension(const feldspar_volumes* const volumes) { return volumes->volumes.dimension(); }
 
 int feldspar_volumes_update(feldspar_volumes* const volumes, const double* const strains, const std::uint64_t parent,
-                            double* const stresses, double* const tangents, std::uint64_t* const token)
+                            const int bonds_break, double* const stresses, double* const tangents,
+                            std::uint64_t* const token)
 {
   return caught(1, [&] {
     const std::size_t n_voigt = volumes->volumes.dimension() == 2 ? 3 : 6;
     const std::size_t n = volumes->volumes.size() * n_voigt;
     *token = volumes->volumes.update(std::span(strains, n), parent, std::span(stresses, n),
-                                     std::span(tangents, tangents ? n * n_voigt : std::size_t(0)));
+                                     std::span(tangents, tangents ? n * n_voigt : std::size_t(0)), bonds_break != 0);
     return 0;
   });
 }

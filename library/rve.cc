@@ -1,5 +1,6 @@
 #include "base/byte_archive.h"
 #include "base/checksum/fingerprint.h"
+#include "coupling/rve/homogenisation.h"
 #include "coupling/rve/state_archive.h"
 #include "library/cells.h"
 
@@ -116,6 +117,18 @@ bool Rve::is_intact() const
 std::size_t Rve::n_broken() const
 {
   return of->alone([](const auto& cell) { return broken(cell.state()); });
+}
+
+Damage Rve::damage() const
+{
+  return of->alone([]<int dim>(const Cell<dim>& cell) {
+    const NetworkState<dim>& state = cell.state();
+    const auto n = double(cell.network().n_segments());
+    const CrackMeasures<dim> cracks = crack_measures(cell.network(), state);
+    return Damage{double(broken(state)) / n, double(state.n_shear_breaks) / n,
+                  (state.work.slip + state.work.released + state.work.settled) / cell.network().volume(),
+                  cracks.density, values_of(stress_voigt<dim>(cracks.orientation))};
+  });
 }
 
 namespace

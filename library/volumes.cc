@@ -35,7 +35,8 @@ public:
   std::size_t size() const { return assigned.size(); }
 
   std::uint64_t update(const std::span<const double> strains, const std::uint64_t parent,
-                       const std::span<double> stresses, const std::span<double> tangents, const Check& check)
+                       const std::span<double> stresses, const std::span<double> tangents, const Bonds bonds,
+                       const Check& check)
   {
     constexpr std::size_t n = n_voigt<dim>;
     if (strains.size() != n * size() || stresses.size() != n * size() ||
@@ -67,7 +68,7 @@ public:
               Cell<dim> cell(networks[assigned[k]], parameters);
               if (before)
                 cell.restore(*before);
-              auto trial = answer<dim>(cell, strain, Bonds::may_break, !tangents.empty(), check);
+              auto trial = answer<dim>(cell, strain, bonds, !tangents.empty(), check);
               if (!trial.in_equilibrium)
                 {
                   for (std::size_t first = first_failure; k < first && !first_failure.compare_exchange_weak(first, k);)
@@ -180,11 +181,13 @@ std::size_t Volumes::size() const
 int Volumes::dimension() const { return of->answers.index() == 0 ? 2 : 3; }
 
 std::uint64_t Volumes::update(const std::span<const double> strains, const std::uint64_t parent,
-                              const std::span<double> stresses, const std::span<double> tangents, const Check& check)
+                              const std::span<double> stresses, const std::span<double> tangents,
+                              const bool bonds_break, const Check& check)
 {
   const std::lock_guard lock(of->one_at_a_time);
   return guarded([&] {
-    return std::visit([&](auto& answers) { return answers.update(strains, parent, stresses, tangents, check); },
+    const Bonds bonds = bonds_break ? Bonds::may_break : Bonds::frozen;
+    return std::visit([&](auto& answers) { return answers.update(strains, parent, stresses, tangents, bonds, check); },
                       of->answers);
   });
 }

@@ -76,7 +76,8 @@ std::span<const double> span_of(const Array& array) { return {array.data(), std:
 
 std::size_t n_voigt(const int dimension) { return dimension == 2 ? 3 : 6; }
 
-py::tuple update(feldspar::Volumes& volumes, const Array& strains, const std::uint64_t parent, const bool with_tangent)
+py::tuple update(feldspar::Volumes& volumes, const Array& strains, const std::uint64_t parent, const bool with_tangent,
+                 const bool bonds_break)
 {
   const auto n = py::ssize_t(volumes.size());
   const auto m = py::ssize_t(n_voigt(volumes.dimension()));
@@ -90,7 +91,7 @@ py::tuple update(feldspar::Volumes& volumes, const Array& strains, const std::ui
   std::uint64_t token = 0;
   {
     const py::gil_scoped_release released;
-    token = volumes.update(strain, parent, stress, tangent, signals());
+    token = volumes.update(strain, parent, stress, tangent, bonds_break, signals());
   }
   return py::make_tuple(token, stresses, with_tangent ? py::object(tangents) : py::none());
 }
@@ -238,6 +239,6 @@ PYBIND11_MODULE(_core, module)
          WithoutInterpreter(), py::arg("specimens"), py::arg("input"), py::arg("n"), py::arg("assigned"))
     .def("__len__", &Volumes::size)
     .def_property_readonly("dimension", &Volumes::dimension)
-    .def("update", &update, py::arg("strains"), py::arg("parent"), py::arg("with_tangent"))
+    .def("update", &update, py::arg("strains"), py::arg("parent"), py::arg("with_tangent"), py::arg("bonds_break"))
     .def("n_broken", &Volumes::n_broken, py::arg("token"));
 }

@@ -21,8 +21,8 @@ SampleTest from_the_start(const PlannedSample& planned)
     return {planned.test, settings.sample, settings.tests, settings.continuum};
   return std::visit(
     [&](const auto& packings) {
-      return SampleTest(planned.test, settings.sample, settings.tests, settings.equilibrium, packings.as_packed(),
-                        packings.weak_twins(), packings.specimens.front().report, planned.rock->seed);
+      return SampleTest(planned.test, settings.sample, settings.tests, settings.equilibrium, packings.realisations,
+                        packings.specimens.front().report, planned.rock->seed);
     },
     planned.rock->packings);
 }

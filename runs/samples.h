@@ -16,18 +16,14 @@
 /// Tests on samples of finite elements. All processes make each test together: every function is collective.
 namespace feldspar
 {
-/// The RVEs that one seed's samples share: as they were packed, then, where there is a weak seed, their weak twins.
+/// The RVEs that one seed's samples share: as they were packed, those of the input's rock first; then, where there is a weak
+/// seed, their weak twins.
 template <int dim>
 struct Packings
 {
-  using Realisations = std::vector<Realisation<dim>>;
-
   std::vector<Specimen<dim>> specimens;
-  Realisations realisations; ///< of the specimens; shared by the points that got them
+  std::vector<Realisation<dim>> realisations; ///< of the specimens; shared by the points that got them
   std::size_t n_packed = 0;
-
-  Realisations as_packed() const { return {realisations.begin(), realisations.begin() + std::ptrdiff_t(n_packed)}; }
-  Realisations weak_twins() const { return {realisations.begin() + std::ptrdiff_t(n_packed), realisations.end()}; }
 
   /// Number of the realisation to which a network belongs.
   std::size_t realisation_of(const Network<dim>& network) const

@@ -209,6 +209,24 @@ void complete_variants(Input& input, const GivenEntries& values)
     }
 }
 
+/// Reads the table of the rocks of groups of cells, where there is one.
+void complete_rocks(Input& input, const GivenEntries& values)
+{
+  if (input.sample.rocks_file.empty())
+    return;
+  try
+    {
+      input.rocks.table = input.sample.rocks_file;
+      read_variant_table(input.rocks, "group");
+      rocks_of_sample(input);
+      input.sample.groups = input.rocks.labels;
+    }
+  catch (const InputError& error)
+    {
+      throw values.error("Sample", "Rocks", error.what());
+    }
+}
+
 void check_specimen(const Input& input, const GivenEntries& values)
 {
   const SpecimenParameters& specimen = input.specimen;
@@ -371,6 +389,7 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
   settle_installation(input, values);
   complete_loading(input, values);
   complete_variants(input, values);
+  complete_rocks(input, values);
   input.settled_by_file = settled_by_file(input, values);
   check_joint_law(input, values);
   for (const Variant& variant : variants(input))

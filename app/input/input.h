@@ -63,7 +63,8 @@ struct VariantParameters
   bool in_step =
     false;           ///< the first values of all entries, then the second, ...; else each value with each of the others
   std::string table; ///< a CSV file that has them instead: a column an entry, a row a variant; empty: none
-  bool named_by_number = false; ///< in files, as those of runs that were begun before names had values
+  std::vector<std::string> labels; ///< of the rows of a table, where it has a column of them
+  bool named_by_number = false;    ///< in files, as those of runs that were begun before names had values
 };
 
 /// Texts of the user for the head of a report; empty where there are none.
@@ -107,6 +108,7 @@ struct Input
   EquilibriumParameters equilibrium;
   Boundary boundary; ///< of representative volumes
   SampleParameters sample;
+  VariantParameters rocks; ///< of the groups of cells that sample.rocks_file names
   ContinuumParameters continuum;
   CalibrationParameters calibration;
   ReportLabels report_labels;
@@ -137,6 +139,9 @@ double expected_grains(const SpecimenParameters& specimen);
 /// One for each combination of the values of the variants' entries, or the input itself. Throws InputError.
 std::vector<Variant> variants(const Input& input);
 
-/// Fills entries and values from the table. Throws InputError.
-void read_variant_table(VariantParameters& wanted);
+/// The rocks of a sample: the input itself, then that of each group of cells, whose name is its label. Throws InputError.
+std::vector<Variant> rocks_of_sample(const Input& input);
+
+/// Fills entries and values from the table, and labels from a column that it must have where it is named. Throws InputError.
+void read_variant_table(VariantParameters& wanted, std::string_view column_of_labels = {});
 } // namespace feldspar

@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -103,19 +105,25 @@ void name_for_files(std::vector<Variant>& all, const bool by_number)
 }
 } // namespace
 
-void read_variant_table(VariantParameters& wanted)
+void read_variant_table(VariantParameters& wanted, const std::string_view column_of_labels)
 {
   if (!wanted.entries.empty() || !wanted.values.empty())
     throw InputError("excludes Entry and Values, which are given too; keep one of them");
   CsvReader table(wanted.table);
   std::vector<std::pair<std::size_t, std::string_view>> columns; // place and unit
   bool has_results = false;
+  std::optional<std::size_t> labels;
   for (std::size_t k = 0; k < table.header().size(); ++k)
     {
       const auto [name, unit] = title_of(table.name_of(k));
       if (name.empty()) // row numbers of a data frame
         continue;
-      if (is_of_tests_table(table.name_of(k)))
+      if (!column_of_labels.empty() && name == column_of_labels)
+        {
+          labels = k;
+          continue;
+        }
+      if (column_of_labels.empty() && is_of_tests_table(table.name_of(k)))
         {
           has_results = true;
           continue;
@@ -131,6 +139,9 @@ void read_variant_table(VariantParameters& wanted)
         }
       columns.emplace_back(k, unit == "-" ? "" : unit);
     }
+  if (!column_of_labels.empty() && !labels)
+    throw InputError(
+      fmt::format("{}:{}: there is no column {}", wanted.table, table.line_of_header(), column_of_labels));
   if (columns.empty())
     throw InputError(fmt::format("{}:{}: there is no column of an entry", wanted.table, table.line_of_header()));
   wanted.values.resize(wanted.entries.size());
@@ -147,6 +158,8 @@ void read_variant_table(VariantParameters& wanted)
         }
       if (!rows.insert(row).second && has_results)
         continue;
+      if (labels)
+        wanted.labels.emplace_back(table.text(*labels));
       for (std::size_t k = 0; k < row.size(); ++k)
         wanted.values[k].push_back(std::move(row[k]));
     }
@@ -179,5 +192,29 @@ std::vector<Variant> variants(const Input& input)
     }
   name_for_files(all, wanted.named_by_number);
   return all;
+}
+
+std::vector<Variant> rocks_of_sample(const Input& input)
+{
+  if (input.rocks.entries.empty())
+    return {{"", input}};
+  constexpr std::array common{"Specimen/Dimension", "Specimen/Shape", "Specimen/Width", "Specimen/Height"};
+  for (const std::string& entry : input.rocks.entries)
+    if (!parameter_named(entry).flags.of_specimen || std::find(common.begin(), common.end(), entry) != common.end())
+      throw InputError(fmt::format("{}: {} is one for all rocks of a sample", input.rocks.table, entry));
+  Input of_rocks = input;
+  of_rocks.variants = input.rocks;
+  std::vector<Variant> rocks = variants(of_rocks);
+  for (std::size_t k = 0; k < rocks.size(); ++k)
+    {
+      rocks[k].label = input.rocks.labels[k];
+      rocks[k].name_in_files = fmt::format("rock_{}", k + 2);
+      if (const auto before = input.rocks.labels.begin() + std::ptrdiff_t(k);
+          rocks[k].label.empty() || std::find(input.rocks.labels.begin(), before, rocks[k].label) != before)
+        throw InputError(fmt::format("{}: each row needs a group of its own; row {} has {}", input.rocks.table, k + 1,
+                                     in_quotes(rocks[k].label)));
+    }
+  rocks.insert(rocks.begin(), {"", input});
+  return rocks;
 }
 } // namespace feldspar

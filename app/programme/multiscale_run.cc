@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/ranks/ranks.h"
 #include "coupling/sample/grain_material.h"
+#include "coupling/sample/sample_body.h"
 #include "laboratory/loading_stages.h"
 
 #include <Eigen/LU>
@@ -36,25 +37,30 @@ template <int dim>
 std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
                              const std::filesystem::path& folder, Progress& progress)
 {
-  Input of_packings = input;
-  of_packings.seeds = packing_seeds(input);
-  const RunPlan plan(of_packings);
-  const std::filesystem::path of_rves = folder_of_rves(folder);
-  ranks::first([&] { std::filesystem::create_directories(of_rves); });
-  if (ranks::number() > 1) // each rank makes its share; then all read all
-    share_out_specimens<dim>(plan, of_rves, progress);
-  auto specimens = provide_specimens<dim>(plan, of_rves, progress);
   std::vector<Rock> rocks;
-  for (std::size_t k = 0; k < specimens.size(); ++k)
+  for (const std::uint64_t seed : input.seeds)
+    rocks.push_back({seed, Packings<dim>()});
+  for (const Variant& of_cells : rocks_of_sample(input))
     {
-      with_name_of(input_file, [&] { check_cell(specimens[k], "the RVE at a point"); });
-      if (k % input.sample.n_realisations == 0)
-        rocks.push_back({input.seeds[rocks.size()], Packings<dim>()});
-      auto& packings = std::get<Packings<dim>>(rocks.back().packings);
-      packings.realisations.push_back(realisation(specimens[k], input.boundary));
-      with_name_of(input_file, [&] { check_intact(input, *packings.realisations.back().inside); });
-      packings.specimens.push_back(std::move(specimens[k]));
-      ++packings.n_packed;
+      Input of_packings = of_cells.input;
+      of_packings.variants = {};
+      of_packings.seeds = packing_seeds(input);
+      const RunPlan plan(of_packings);
+      const std::filesystem::path of_rves = folder_of_rves(folder) / of_cells.name_in_files;
+      ranks::first([&] { std::filesystem::create_directories(of_rves); });
+      if (ranks::number() > 1) // each rank makes its share; then all read all
+        share_out_specimens<dim>(plan, of_rves, progress);
+      auto specimens = provide_specimens<dim>(plan, of_rves, progress);
+      for (std::size_t k = 0; k < specimens.size(); ++k)
+        {
+          with_name_of(input_file, [&] { check_cell(specimens[k], "the RVE at a point"); });
+          auto& packings = std::get<Packings<dim>>(rocks[k / input.sample.n_realisations].packings);
+          packings.realisations.push_back(realisation(specimens[k], input.boundary));
+          packings.realisations.back().rock = of_cells.label;
+          with_name_of(input_file, [&] { check_intact(input, *packings.realisations.back().inside); });
+          packings.specimens.push_back(std::move(specimens[k]));
+          ++packings.n_packed;
+        }
     }
   if (input.sample.weak_seed != WeakSeed::none)
     for (Rock& rock : rocks)
@@ -64,6 +70,7 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
           {
             packings.specimens.push_back(weakened<dim>(packings.specimens[k], input.sample.weak_seed_strength));
             packings.realisations.push_back(realisation(packings.specimens.back(), input.boundary));
+            packings.realisations.back().rock = rock_of_weak_seed;
           }
       }
   return rocks;

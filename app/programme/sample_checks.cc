@@ -33,14 +33,17 @@ void check_sample(const Input& input)
                                    : "the RVEs of such a Sample/Geometry are of spheres",
                                  needed));
   if (has_grains)
-    {
-      check_no_groups(input);
-      check_equilibria(input.specimen, "take another law");
-    }
+    for (const Variant& rock : rocks_of_sample(input))
+      {
+        check_no_groups(rock.input);
+        check_equilibria(rock.input.specimen, "take another law");
+      }
   check_boundary(input);
   if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != BodyShape::periodic)
     throw InputError(fmt::format("Specimen/Shape = {}: the RVE at a point needs Shape = periodic",
                                  find_parameter("Specimen/Shape")->write(input)));
+  if (has_grains && !input.specimen.specimen_file.empty() && !input.sample.groups.empty())
+    throw InputError("Sample/Rocks: a Specimen file is of one rock");
   if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
     throw InputError("Sample/Realisations: a Specimen file is one realisation; set Realisations = 1");
   if (!input.variants.entries.empty())
@@ -67,8 +70,9 @@ void check_sample(const Input& input)
     throw InputError("Continuum/Dilation angle: must be at most Continuum/Friction angle");
   if (!has_grains && geometry != SampleGeometry::plane && input.continuum.poissons_ratio >= 0.5)
     throw InputError("Continuum/Poisson ratio: must be below 0.5 in space");
-  if (!input.sample.mesh_names.empty() && input.sample.mesh_file.empty())
-    throw InputError("Sample/Mesh names: are of the groups of a mesh file; give Mesh file too");
+  if (input.sample.mesh_file.empty() && !(input.sample.mesh_names.empty() && input.sample.groups.empty()))
+    throw InputError(fmt::format("Sample/{} of the groups of a mesh file; give Mesh file too",
+                                 input.sample.groups.empty() ? "Mesh names: are" : "Rocks: is"));
   if (input.sample.reduced_quadrature && input.sample.order != 2)
     throw InputError("Sample/Quadrature = reduced: needs Order = 2; elements of order 1 would deform without strain");
   // Before the mesh is made, which would take all memory.

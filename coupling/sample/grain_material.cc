@@ -329,14 +329,18 @@ Specimen<dim> weakened(Specimen<dim> specimen, const double share)
 
 template <int dim>
 fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, const GrainMaterialParameters& parameters,
-                                  WeakCells<dim> weak)
+                                  RocksOfCells rocks)
 {
+  std::map<std::string, std::vector<Realisation<dim>>> by_rock;
+  for (Realisation<dim>& one : realisations)
+    by_rock[one.rock].push_back(std::move(one));
   fem::Material<dim> material;
   material.field_names = names_of_fields<dim>();
-  material.make_point = [realisations = std::move(realisations), parameters, weak = std::move(weak)](
+  material.make_point = [by_rock = std::move(by_rock), parameters, rocks = std::move(rocks)](
                           const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
     Random random(point_seed(parameters, place), RandomStream::dealing);
-    const auto& candidates = weak.cells.contains(place.cell) ? weak.twins : realisations;
+    const auto rock = rocks.find(place.cell);
+    const auto& candidates = by_rock.at(rock == rocks.end() ? "" : rock->second);
     const auto with_replacement = std::size_t(random.uniform() * double(candidates.size()));
     const auto& assigned =
       candidates[parameters.without_replacement ? drawn_without_replacement(parameters, place, candidates.size())
@@ -358,8 +362,8 @@ fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, co
 
 template class GrainPoint<2>;
 template Specimen<2> weakened<2>(Specimen<2>, double);
-template fem::Material<2> grain_material<2>(std::vector<Realisation<2>>, const GrainMaterialParameters&, WeakCells<2>);
+template fem::Material<2> grain_material<2>(std::vector<Realisation<2>>, const GrainMaterialParameters&, RocksOfCells);
 template class GrainPoint<3>;
 template Specimen<3> weakened<3>(Specimen<3>, double);
-template fem::Material<3> grain_material<3>(std::vector<Realisation<3>>, const GrainMaterialParameters&, WeakCells<3>);
+template fem::Material<3> grain_material<3>(std::vector<Realisation<3>>, const GrainMaterialParameters&, RocksOfCells);
 } // namespace feldspar

@@ -7,9 +7,9 @@
 #include <any>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,17 +99,12 @@ struct GrainMaterialParameters
 template <int dim>
 Specimen<dim> weakened(Specimen<dim> specimen, double share);
 
-/// Cells whose points get weaker twins of the RVEs assigned to them.
-template <int dim>
-struct WeakCells
-{
-  std::set<std::string> cells;         ///< as PointPlace::cell
-  std::vector<Realisation<dim>> twins; ///< one of each realisation
-};
+/// Names of rocks, as Realisation::rock, by the cells (PointPlace::cell) that consist of them.
+using RocksOfCells = std::map<std::string, std::string>;
 
 /// RVEs of these realisations assigned to the points of a sample, each point by itself from the seed: the same for any
 /// number of ranks. Edges are not turned by chance: their first axis is the normal of the side. The material's fields are those of GrainPoint::fields().
 template <int dim>
 fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, const GrainMaterialParameters& parameters,
-                                  WeakCells<dim> weak = {});
+                                  RocksOfCells rocks = {});
 } // namespace feldspar

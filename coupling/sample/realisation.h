@@ -3,6 +3,7 @@
 #include "coupling/network/network.h"
 
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace feldspar
@@ -25,6 +26,7 @@ struct Realisation
 
   std::shared_ptr<const Network<dim>> inside;
   std::shared_ptr<const Network<dim>> at_side; ///< of elements on a free side; an edge, or as inside
+  std::string rock;                            ///< for the cells of this rock alone; empty: for all that have none
 };
 
 /// Realisation under a boundary; of the boundary of edges: periodic inside, and open along the first axis at sides.

@@ -39,14 +39,13 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
   bookkeeping.solver_work.emplace();
 }
 
-void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_per_rve,
-                             const unsigned int events_per_segment)
+void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const unsigned int events_per_segment)
 {
   most_events_per_segment = events_per_segment;
   body = std::move(its_body);
   size = body->size();
   standing.n_points = body->n_points();
-  standing.n_segments = standing.n_points * segments_per_rve;
+  standing.n_segments = body->n_segments();
   record.size = body->box();
 }
 

@@ -65,7 +65,7 @@ struct SampleTest::Parts
   /// Throws InputError for a test that such a sample cannot make.
   Parts(const TestCase& which, const SampleParameters& of, const TestParameters& parameters);
 
-  void take(std::unique_ptr<SampleBody> its_body, std::uint64_t segments_per_rve, unsigned int events_per_segment);
+  void take(std::unique_ptr<SampleBody> its_body, unsigned int events_per_segment);
   SampleSetUp set_up();
 
   /// Pressure all round, the top plate free to follow.

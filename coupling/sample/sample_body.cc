@@ -21,7 +21,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -86,6 +85,8 @@ fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
   fem::SampleMesh<dim> mesh =
     fem::read_gmsh<dim>(ranks::communicator(), sample.mesh_file, 0, metres(sample.mesh_unit), sample.mesh_names);
   check_size(mesh, sample);
+  for (const std::string& group : sample.groups)
+    mesh.group(group);
   for (const std::string& boundary : boundaries_of(sample.geometry))
     try
       {
@@ -144,12 +145,10 @@ SampleSize size_of(const fem::SampleMesh<dim>& mesh, const SampleParameters& sam
   return {sides * box.side_length(0), box.side_length(dim - 1), largest, mesh.triangulation->n_global_active_cells()};
 }
 
-/// Cells of the weak seed by their places alone. All ranks know all cells: none is refined.
+/// Cells of the weak seed by their places alone.
 template <int dim>
-std::set<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const WeakSeed seed)
+std::vector<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const WeakSeed seed)
 {
-  if (seed == WeakSeed::none)
-    return {};
   const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
   const double round_off = 1e-9 * box.side_length(dim - 1);
   const double middle = box.center()[dim - 1] + round_off;
@@ -167,10 +166,25 @@ std::set<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const
     }
   if (seed == WeakSeed::element)
     return {row.rbegin()->second};
-  std::set<std::string> cells;
+  std::vector<std::string> cells;
   for (const auto& [place, cell] : row)
-    cells.insert(cell);
+    cells.push_back(cell);
   return cells;
+}
+
+/// All ranks know all cells: none is refined.
+template <int dim>
+RocksOfCells rocks_of_cells(const fem::SampleMesh<dim>& mesh, const SampleParameters& sample)
+{
+  RocksOfCells rocks;
+  if (sample.weak_seed != WeakSeed::none)
+    for (const std::string& cell : cells_of_weak_seed(mesh, sample.weak_seed))
+      rocks[cell] = rock_of_weak_seed;
+  for (const std::string& group : sample.groups)
+    for (const auto& cell : mesh.triangulation->active_cell_iterators())
+      if (cell->material_id() == mesh.group(group))
+        rocks[cell->id().to_string()] = group;
+  return rocks;
 }
 
 template <int dim, int material_dim>
@@ -218,6 +232,17 @@ public:
     return {width, sample.geometry == SampleGeometry::plane_strain ? thickness : width, height};
   }
   std::uint64_t n_points() const override { return solid.n_points(); }
+  std::uint64_t n_segments() const override
+  {
+    std::uint64_t n = 0;
+    for (std::size_t i = 0; i < n_points_here(); ++i)
+      {
+        const std::any structure = solid.material_points()[i].structure();
+        if (const auto* const grains = std::any_cast<GrainStructure<material_dim>>(&structure))
+          n += grains->network->n_segments();
+      }
+    return ranks::sum(n);
+  }
   std::size_t n_points_per_cell() const override { return solid.n_points_per_cell(); }
 
   double top_displacement() const override { return solid.mean_displacement("top", dim - 1); }
@@ -403,8 +428,7 @@ bool has_room_for_factors(const std::uint64_t n_points, const Network<dim>& of_p
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,
-                                                std::vector<Realisation<dim>> realisations,
-                                                std::vector<Realisation<dim>> weak_twins, const std::uint64_t seed)
+                                                std::vector<Realisation<dim>> realisations, const std::uint64_t seed)
 {
   if (dimension_of_rves(sample.geometry) != dim)
     throw std::invalid_argument("RVEs of another dimension than the sample's");
@@ -423,8 +447,7 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   return make_body<dim>(sample, set_up, [&](const auto& mesh) {
     material.keeps_factors =
       has_room_for_factors(mesh.triangulation->n_global_active_cells() * material.n_points_of_cell, first);
-    auto rves = grain_material<dim>(std::move(realisations), material,
-                                    WeakCells<dim>{cells_of_weak_seed(mesh, sample.weak_seed), std::move(weak_twins)});
+    auto rves = grain_material<dim>(std::move(realisations), material, rocks_of_cells(mesh, sample));
     return scaled_softening<dim>(std::move(rves), sample.scaled_softening ? size : unscaled);
   });
 }
@@ -440,8 +463,8 @@ std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample,
 
 template std::unique_ptr<SampleBody> make_body_of_grains<2>(const SampleParameters&, const SampleSetUp&,
                                                             const EquilibriumParameters&, std::vector<Realisation<2>>,
-                                                            std::vector<Realisation<2>>, std::uint64_t);
+                                                            std::uint64_t);
 template std::unique_ptr<SampleBody> make_body_of_grains<3>(const SampleParameters&, const SampleSetUp&,
                                                             const EquilibriumParameters&, std::vector<Realisation<3>>,
-                                                            std::vector<Realisation<3>>, std::uint64_t);
+                                                            std::uint64_t);
 } // namespace feldspar

@@ -51,6 +51,7 @@ public:
   virtual SampleSize size() const = 0;
   virtual std::array<double, 3> box() const = 0; ///< as TestRecord::size
   virtual std::uint64_t n_points() const = 0;
+  virtual std::uint64_t n_segments() const = 0; ///< of the RVEs at all points
   virtual std::size_t n_points_per_cell() const = 0;
 
   virtual double top_displacement() const = 0; ///< [m]
@@ -75,13 +76,16 @@ public:
   virtual void restore(const fem::StoredSolid& stored) = 0;
 };
 
-/// Makes a body with RVEs of these realisations assigned to its points by the seed. Throws std::invalid_argument where
+/// Rock of the cells of the weak seed.
+inline constexpr const char* rock_of_weak_seed = "weak seed";
+
+/// Makes a body with RVEs of these realisations assigned to its points by the seed; those of a rock to the cells of the group
+/// of that name, or of the weak seed. Throws std::invalid_argument where
 /// they are not of the dimension that the geometry needs.
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,
-                                                std::vector<Realisation<dim>> realisations,
-                                                std::vector<Realisation<dim>> weak_twins, std::uint64_t seed);
+                                                std::vector<Realisation<dim>> realisations, std::uint64_t seed);
 /// A body of the material that sample.material names, without grains.
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
                                                  const ContinuumParameters& continuum);

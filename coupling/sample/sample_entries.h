@@ -81,6 +81,17 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
                   "by lot: any Realisation as likely as any other; in turn: from a shuffled stack, so that none "
                   "is used twice before all are. With as many Realisations as points (or elements) each has "
                   "its own"),
+    entry::file(
+      "Rocks", &P::rocks_file,
+      "CSV table of the groups of cells (surfaces or volumes) of the mesh file that consist of another rock: a "
+      "column `group`, and a column for each entry in which its representative volumes differ from those of "
+      "all other cells, as `Flat joint/Modulus [GPa]`",
+      {.demands = {{"", "Sample/Material", {"grains"}, "rocks differ in their grains; set Material = grains"},
+                   {"",
+                    "Sample/Weak seed",
+                    {},
+                    "excludes Weak seed: make the weak cells a group of their "
+                    "own"}}}),
     entry::choice("Weak seed", &P::weak_seed,
                   {{"none", WeakSeed::none}, {"row", WeakSeed::row}, {"element", WeakSeed::element}},
                   "where the sample is to break first: the representative volumes of the row of elements just "

@@ -61,6 +61,8 @@ struct SampleParameters
   bool random_orientation = true;    ///< each turned by an angle of its own
   bool assigned_to_elements = false; ///< the points of an element have the same RVE in the same orientation
   bool without_replacement = false;  ///< no realisation is used twice before all are; else with replacement
+  std::string rocks_file;            ///< a CSV table of the rocks of groups of cells; empty: one rock
+  std::vector<std::string> groups;   ///< of cells of the mesh file that consist of a rock of their own
   WeakSeed weak_seed = WeakSeed::none;
   double weak_seed_strength = 0.9;       ///< share of the strengths that RVEs there have
   double compression_step = 4e-5;        ///< axial strain between two rows of the curve

@@ -18,15 +18,12 @@ namespace feldspar
 template <int dim>
 SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
                        const EquilibriumParameters& equilibrium, std::vector<Realisation<dim>> realisations,
-                       std::vector<Realisation<dim>> weak_twins, const SpecimenReport& of_rves,
-                       const std::uint64_t seed)
+                       const SpecimenReport& of_rves, const std::uint64_t seed)
   : parts(std::make_unique<Parts>(test, sample, wanted))
 {
-  const std::uint64_t segments_per_rve = realisations.front().inside->n_segments();
   const unsigned int events_per_segment = most_events_of_a_bond(*realisations.front().inside, equilibrium);
-  parts->take(make_body_of_grains<dim>(sample, parts->set_up(), equilibrium, std::move(realisations),
-                                       std::move(weak_twins), seed),
-              segments_per_rve, events_per_segment);
+  parts->take(make_body_of_grains<dim>(sample, parts->set_up(), equilibrium, std::move(realisations), seed),
+              events_per_segment);
   parts->record.seed = seed;
   parts->record.specimen = of_rves;
 }
@@ -35,7 +32,7 @@ SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, con
                        const ContinuumParameters& continuum)
   : parts(std::make_unique<Parts>(test, sample, wanted))
 {
-  parts->take(make_continuous_body(sample, parts->set_up(), continuum), 0, 0);
+  parts->take(make_continuous_body(sample, parts->set_up(), continuum), 0);
 }
 SampleTest::~SampleTest() = default;
 SampleTest::SampleTest(SampleTest&&) noexcept = default;
@@ -128,11 +125,11 @@ TestOutcome SampleTest::finish(const bool interrupted) const
 }
 
 template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const TestParameters&,
-                                const EquilibriumParameters&, std::vector<Realisation<2>>, std::vector<Realisation<2>>,
-                                const SpecimenReport&, std::uint64_t);
+                                const EquilibriumParameters&, std::vector<Realisation<2>>, const SpecimenReport&,
+                                std::uint64_t);
 template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const TestParameters&,
-                                const EquilibriumParameters&, std::vector<Realisation<3>>, std::vector<Realisation<3>>,
-                                const SpecimenReport&, std::uint64_t);
+                                const EquilibriumParameters&, std::vector<Realisation<3>>, const SpecimenReport&,
+                                std::uint64_t);
 template SampleRve<2> SampleTest::rve_at<2>(unsigned int, unsigned int) const;
 template SampleRve<3> SampleTest::rve_at<3>(unsigned int, unsigned int) const;
 template std::optional<SampleRve<2>> SampleTest::rve_here<2>(std::uint64_t) const;

@@ -37,13 +37,13 @@ struct SampleStanding
 class SampleTest
 {
 public:
-  /// The RVEs of `realisations`, of dimension_of_rves(sample.geometry), are assigned to the points by the seed; to
-  /// those of the weak seed, where there is one, their weak twins.
+  /// The RVEs of `realisations`, of dimension_of_rves(sample.geometry), are assigned to the points by the seed, as
+  /// make_body_of_grains() does.
   /// Throws InputError for a test that such a sample cannot make.
   template <int dim>
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
              const EquilibriumParameters& equilibrium, std::vector<Realisation<dim>> realisations,
-             std::vector<Realisation<dim>> weak_twins, const SpecimenReport& of_rves, std::uint64_t seed);
+             const SpecimenReport& of_rves, std::uint64_t seed);
   /// A sample without grains; sample.material says which. Cracks and energies are not known of it.
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
              const ContinuumParameters& continuum);

@@ -31,7 +31,7 @@ int main(void)
     {
       const double strain[3] = {0.0, 1e-5 * k, 0.0};
       double stress[3];
-      if (feldspar_volumes_update(point, strain, accepted, stress, NULL, &accepted))
+      if (feldspar_volumes_update(point, strain, accepted, 1, stress, NULL, &accepted))
         end_by_error();
       printf("%.2e,%.4f\n", strain[1], stress[1] / 1e6);
     }
@@ -39,7 +39,7 @@ int main(void)
   /* A mistake is an error to be asked for, here a strain of 100. */
   const double too_large[3] = {0.0, 100.0, 0.0};
   double stress[3];
-  if (!feldspar_volumes_update(point, too_large, accepted, stress, NULL, &accepted))
+  if (!feldspar_volumes_update(point, too_large, accepted, 1, stress, NULL, &accepted))
     return EXIT_FAILURE;
   printf("# %s\n", feldspar_last_error());
 

@@ -27,16 +27,19 @@ void transfer(Archive& archive, GmshMesh& mesh)
   archive.array("nodes", mesh.nodes);
   archive.array("cells", mesh.cells);
   archive.array("sides", mesh.sides);
-  std::vector<std::pair<std::string, std::uint32_t>> groups(mesh.groups.begin(), mesh.groups.end());
-  std::uint64_t n_groups = groups.size();
-  archive.value("number of groups", n_groups);
-  groups.resize(n_groups);
-  for (auto& [name, number] : groups)
+  for (auto* const named : {&mesh.groups, &mesh.groups_of_cells})
     {
-      archive.text("name", name);
-      archive.value("group", number);
+      std::vector<std::pair<std::string, std::uint32_t>> groups(named->begin(), named->end());
+      std::uint64_t n_groups = groups.size();
+      archive.value("number of groups", n_groups);
+      groups.resize(n_groups);
+      for (auto& [name, number] : groups)
+        {
+          archive.text("name", name);
+          archive.value("group", number);
+        }
+      *named = {groups.begin(), groups.end()};
     }
-  mesh.groups = {groups.begin(), groups.end()};
 }
 
 namespace
@@ -110,13 +113,17 @@ public:
       std::sort(elements->begin(), elements->end(), [](const auto& a, const auto& b) { return a.number < b.number; });
     check_sides();
     for (const Element& cell : cells)
-      std::copy(cell.nodes.begin(), cell.nodes.end(), result.cells.emplace_back().nodes.begin());
+      {
+        std::copy(cell.nodes.begin(), cell.nodes.end(), result.cells.emplace_back().nodes.begin());
+        result.cells.back().group = std::uint32_t(cell.group);
+      }
     for (const Element& side : sides)
       {
         std::copy(side.nodes.begin(), side.nodes.end(), result.sides.emplace_back().nodes.begin());
         result.sides.back().group = std::uint32_t(side.group);
       }
-    name_groups();
+    result.groups = groups_of(dimension - 1);
+    result.groups_of_cells = groups_of(dimension);
     return std::move(result);
   }
 
@@ -175,7 +182,7 @@ private:
           continue;
         const bool is_cell = least_dimension == dimension;
         has_simplices |= is_cell && (type == triangle || type == tetrahedron);
-        const int group = is_cell ? 0 : group_of(entity_dimension, entity);
+        const int group = group_of(entity_dimension, entity);
         const std::size_t n_nodes = nodes[t].size() / elements[t].size();
         for (std::size_t k = 0; k < elements[t].size(); ++k)
           {
@@ -191,10 +198,12 @@ private:
   }
 
   /// The library counts an entity with all its elements to a group, in files of format 2 too, which group each element.
-  static int group_of(const int entity_dimension, const int entity)
+  int group_of(const int entity_dimension, const int entity) const
   {
     std::vector<int> groups;
     gmsh::model::getPhysicalGroupsForEntity(entity_dimension, entity, groups);
+    if (groups.size() > 1 && entity_dimension == dimension)
+      return int(GmshMesh::several_groups);
     if (groups.size() > 1)
       throw InputError(fmt::format("{} {} is in the physical groups {} and {}; a part of the boundary has one",
                                    entity_dimension == 1 ? "curve" : "surface", entity, groups[0], groups[1]));
@@ -210,10 +219,10 @@ private:
     return nodes;
   }
 
-  std::string name_of(const int group) const
+  static std::string name_of(const int its_dimension, const int group)
   {
     std::string name;
-    gmsh::model::getPhysicalName(dimension - 1, group, name);
+    gmsh::model::getPhysicalName(its_dimension, group, name);
     return name.empty() ? fmt::format("{}", group) : name;
   }
 
@@ -245,19 +254,22 @@ private:
       const auto cycle = as_cycle(side.nodes);
       const auto found = by_nodes.find(sorted(cycle));
       if (found == by_nodes.end() || found->second.cycle != cycle)
-        throw InputError(fmt::format("element {} on the nodes {} and {}{} is not the side of a cell", side.number,
-                                     number_of(cycle[0]), number_of(cycle[1]),
-                                     side.group == 0 ? "" : ", of the group " + excerpt(name_of(side.group)) + ","));
+        throw InputError(
+          fmt::format("element {} on the nodes {} and {}{} is not the side of a cell", side.number, number_of(cycle[0]),
+                      number_of(cycle[1]),
+                      side.group == 0 ? "" : ", of the group " + excerpt(name_of(dimension - 1, side.group)) + ","));
       return found->second.n_cells == 2;
     });
   }
 
-  void name_groups()
+  static std::map<std::string, std::uint32_t> groups_of(const int its_dimension)
   {
+    std::map<std::string, std::uint32_t> named;
     gmsh::vectorpair groups;
-    gmsh::model::getPhysicalGroups(groups, dimension - 1);
+    gmsh::model::getPhysicalGroups(groups, its_dimension);
     for (const auto& [group_dimension, group] : groups)
-      result.groups.emplace(name_of(group), std::uint32_t(group));
+      named.emplace(name_of(its_dimension, group), std::uint32_t(group));
+    return named;
   }
 
   int dimension;

@@ -16,7 +16,10 @@ struct GmshMesh
   struct Cell
   {
     std::array<std::uint32_t, 8> nodes; ///< the first 4 of a quadrilateral
+    std::uint32_t group;                ///< physical group; 0 without one, or several_groups
   };
+  static constexpr std::uint32_t several_groups = std::uint32_t(-2);
+
   struct Side
   {
     std::array<std::uint32_t, 4> nodes; ///< the first 2 of a line
@@ -27,6 +30,7 @@ struct GmshMesh
   std::vector<Cell> cells;
   std::vector<Side> sides;
   std::map<std::string, std::uint32_t> groups; ///< of sides; one without a name has its number as name
+  std::map<std::string, std::uint32_t> groups_of_cells;
 };
 
 /// Reads a Gmsh file (.msh) in a child process, as the library crashes on some damaged files, and checks what deal.II takes

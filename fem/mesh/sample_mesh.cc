@@ -45,17 +45,36 @@ SampleMesh<2> rectangle(const MPI_Comm communicator, const double width, const d
 }
 } // namespace
 
+namespace
+{
+template <typename Id>
+Id found_in(const std::map<std::string, Id>& all, const char* const kind, const std::string& name)
+{
+  if (const auto found = all.find(name); found != all.end())
+    return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, id] : all)
+    names.push_back(known);
+  throw MeshError(fmt::format("no {} is named {}; the mesh has {}", kind, name,
+                              names.empty() ? "none with a name" : fmt::format("{}", fmt::join(names, ", "))));
+}
+} // namespace
+
 template <int dim>
 types::boundary_id SampleMesh<dim>::boundary(const std::string& name) const
 {
-  const auto found = boundaries.find(name);
-  if (found != boundaries.end())
-    return found->second;
-  std::vector<std::string> names;
-  for (const auto& [known, id] : boundaries)
-    names.push_back(known);
-  throw MeshError(fmt::format("no boundary is named {}; the mesh has {}", name,
-                              names.empty() ? "none with a name" : fmt::format("{}", fmt::join(names, ", "))));
+  return found_in(boundaries, "boundary", name);
+}
+
+template <int dim>
+types::material_id SampleMesh<dim>::group(const std::string& name) const
+{
+  for (const auto& cell : triangulation->active_cell_iterators())
+    if (cell->material_id() == GmshMesh::several_groups)
+      throw MeshError(fmt::format(
+        "the cell at ({:g}, {:g}{}) m is in several physical groups, and a rock is that of one", cell->center()[0],
+        cell->center()[1], dim == 2 ? "" : fmt::format(", {:g}", cell->center()[dim - 1])));
+  return found_in(groups, "group of cells", name);
 }
 
 SampleMesh<2> plane_sample(const MPI_Comm communicator, const double width, const double height,
@@ -177,9 +196,14 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
       vertices[k][d] = from_file.nodes[k][d];
   std::vector<CellData<dim>> cells(from_file.cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
-    for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
-      cells[c].vertices[GeometryInfo<dim>::ucd_to_deal[v]] = from_file.cells[c].nodes[v];
-  SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), {from_file.groups.begin(), from_file.groups.end()}};
+    {
+      cells[c].material_id = from_file.cells[c].group;
+      for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+        cells[c].vertices[GeometryInfo<dim>::ucd_to_deal[v]] = from_file.cells[c].nodes[v];
+    }
+  SampleMesh<dim> mesh{empty_triangulation<dim>(communicator),
+                       {from_file.groups.begin(), from_file.groups.end()},
+                       {from_file.groups_of_cells.begin(), from_file.groups_of_cells.end()}};
   std::map<types::boundary_id, types::boundary_id> joined; // groups into the first of their boundary
   auto boundaries = mesh.boundaries;
   for (const auto& [name, groups] : names)

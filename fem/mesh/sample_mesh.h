@@ -47,9 +47,12 @@ struct SampleMesh
 {
   std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> triangulation;
   std::map<std::string, dealii::types::boundary_id> boundaries;
+  std::map<std::string, dealii::types::material_id> groups = {}; ///< of cells
 
   /// Throws MeshError, which says what names there are.
   dealii::types::boundary_id boundary(const std::string& name) const;
+  /// The same of a group of cells, none of which may be in another one.
+  dealii::types::material_id group(const std::string& name) const;
 };
 
 /// A rectangle with its lower left corner at the origin. divisions: cells along x and y before refinement, each of
@@ -71,7 +74,8 @@ SampleMesh<3> cylinder_sample(MPI_Comm communicator, double radius, double heigh
 using BoundaryNames = std::map<std::string, std::vector<std::string>>;
 
 /// A Gmsh file (.msh, format 2 or 4, text or binary) of quadrilaterals or hexahedra, whose coordinates count in a unit [m].
-/// Boundaries are its physical groups of lines or surfaces, by their names in the file or by `names`. Throws MeshError.
+/// Boundaries are its physical groups of lines or surfaces, by their names in the file or by `names`; groups of cells those of
+/// surfaces or volumes. Throws MeshError.
 template <int dim>
 SampleMesh<dim> read_gmsh(MPI_Comm communicator, const std::filesystem::path& file, unsigned int n_refinements,
                           double unit = 1.0, const BoundaryNames& names = {});

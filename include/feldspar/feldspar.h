@@ -214,6 +214,16 @@ private:
   std::shared_ptr<TrialState> of;
 };
 
+/// What broke in a representative volume; the fields of a point in a sample.
+struct Damage
+{
+  double broken_share = 0.0;             ///< of all segments
+  double broken_in_shear_share = 0.0;    ///< the same
+  double dissipation = 0.0;              ///< [J/m³]
+  double crack_density = 0.0;            ///< area (in the plane length) of the cracks over the volume [1/m]
+  std::vector<double> crack_orientation; ///< sum of their areas and normals n⊗n over the volume, Voigt [1/m]; [n_voigt]
+};
+
 /// A representative volume: a periodic specimen that answers a strain by a stress, without time; docs/theory.md §9. Strains and
 /// stresses in Voigt's order, xx, yy, xy or xx, yy, zz, yz, xz, xy, with engineering shear. Trying changes nothing; accept()
 /// does.
@@ -232,6 +242,7 @@ public:
   std::vector<double> stress() const;
   bool is_intact() const;
   std::size_t n_broken() const; ///< segments
+  Damage damage() const;
 
   /// The response with all bonds kept.
   Trial trial(std::span<const double> strain, bool with_tangent = false, const Check& check = {}) const;
@@ -267,9 +278,10 @@ public:
   std::size_t size() const;
   int dimension() const;
   /// Fills stresses [n × n_voigt] from strains [n × n_voigt], and tangents [n × n_voigt²] unless that is empty. Bonds break
-  /// until none is overloaded. Returns the token. Throws Error, and keeps nothing, where a volume finds no equilibrium.
+  /// until none is overloaded, or all are kept. Returns the token. Throws Error, and keeps nothing, where a volume finds no
+  /// equilibrium.
   std::uint64_t update(std::span<const double> strains, std::uint64_t parent, std::span<double> stresses,
-                       std::span<double> tangents = {}, const Check& check = {});
+                       std::span<double> tangents = {}, bool bonds_break = true, const Check& check = {});
   /// Broken segments of each volume in the state of a token; [n].
   std::vector<std::size_t> n_broken(std::uint64_t token) const;
 

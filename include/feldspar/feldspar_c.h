@@ -38,10 +38,10 @@ extern "C"
   /* 2 or 3. */
   int feldspar_volumes_dimension(const feldspar_volumes* volumes);
   /* Stresses [n][n_voigt] and, unless that is NULL, tangents [n][n_voigt][n_voigt] at strains [n][n_voigt], from the state of
- * the token `parent` (0: at rest). The outcome is kept under `token`. A parent is accepted: what came before it, and its
+ * the token `parent` (0: at rest). Bonds break until none is overloaded; where bonds_break is 0, all are kept. The outcome is kept under `token`. A parent is accepted: what came before it, and its
  * siblings, go. */
-  int feldspar_volumes_update(feldspar_volumes* volumes, const double* strains, uint64_t parent, double* stresses,
-                              double* tangents, uint64_t* token);
+  int feldspar_volumes_update(feldspar_volumes* volumes, const double* strains, uint64_t parent, int bonds_break,
+                              double* stresses, double* tangents, uint64_t* token);
   void feldspar_volumes_free(feldspar_volumes* volumes);
 
 #ifdef __cplusplus

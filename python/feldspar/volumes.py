@@ -171,16 +171,17 @@ class Volumes:
         return len(self.core)
 
     def update(
-        self, strains: ArrayLike, parent: int = 0, tangent: bool = False
+        self, strains: ArrayLike, parent: int = 0, tangent: bool = False, bonds_break: bool = True
     ) -> tuple[int, Numbers, Union[Numbers, None]]:
         """Returns a token, the stresses [n, n_voigt] and, if asked for, the tangents [n, n_voigt, n_voigt] at strains
         [n, n_voigt].
 
         The volumes start from the state of the token `parent`; 0: at rest. The outcome is kept under the token returned. A
         token given as parent is accepted by that: what came before it, and its siblings, are forgotten. Raises Error, and
-        keeps nothing, where a volume finds no equilibrium.
+        keeps nothing, where a volume finds no equilibrium. Bonds break until none is overloaded; `bonds_break=False` keeps
+        all, as Newton's method needs it.
         """
-        return self.core.update(strains, whole(parent, "a token"), tangent)
+        return self.core.update(strains, whole(parent, "a token"), tangent, bonds_break)
 
     def n_broken(self, token: int) -> NDArray[numpy.int64]:
         """Returns the broken segments of each volume in the state of a token; [n]."""

@@ -53,8 +53,8 @@ const specimensView = (figure, data, chart, tools) => {
     zoom: 1,
     pan: [0, 0],
     cut: inSpace ? "y" : "whole",
-    grains: tests.some(test => test.grains.tone) ? "mineral grain" : "plain",
-    cracks: "kind",
+    grains: data.fragments ? "fragment" : tests.some(test => test.grains.tone) ? "mineral grain" : "plain",
+    cracks: data.fragments ? "hidden" : "kind",
     relative: false,
   });
   const panes = [];
@@ -235,7 +235,7 @@ const specimensView = (figure, data, chart, tools) => {
   const still = () => {
     course.replaceWith(key);
     row.querySelectorAll(".header .chip").forEach(one => one.remove()); // the colours of the curves
-    const stages = tests.length > 1 ? [["", Infinity]] : tests[0].stages;
+    const stages = tests.length > 1 ? [["", Infinity]] : data.fragments ? tests[0].stages.slice(-1) : tests[0].stages;
     const frame = box.getBoundingClientRect();
     const {sheet, pen} = sheetOf(frame.width * stages.length + 2 * edge * (stages.length - 1), frame.height, devicePixelRatio || 1);
     stages.forEach(([title, at], k) => {

@@ -444,6 +444,72 @@ TEST(Multiscale, TakesAMeshOfGmshForItsSample)
   EXPECT_GT(stress("own"), 1e6);
 }
 
+/// Cells of which a segment broke; four points a cell.
+std::set<int> cells_that_broke(const std::filesystem::path& run)
+{
+  std::set<int> cells;
+  for (const double point : column(run / "cracks.csv", "joint"))
+    cells.insert(int(point) / 4);
+  return cells;
+}
+
+/// Two columns of 6 mm by 24 mm, side by side: the groups of cells left_column and right_column.
+const std::string two_columns =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n6\n1 1 \"left\"\n1 2 \"right\"\n1 3 \"bottom\"\n1 4 \"top\"\n"
+  "2 5 \"left_column\"\n2 6 \"right_column\"\n$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 0.006 0 0\n3 0.012 0 0\n"
+  "4 0 0.024 0\n5 0.006 0.024 0\n6 0.012 0.024 0\n$EndNodes\n$Elements\n8\n1 1 2 3 1 1 2\n2 1 2 3 1 2 3\n"
+  "3 1 2 2 2 3 6\n4 1 2 4 3 6 5\n5 1 2 4 3 5 4\n6 1 2 1 4 4 1\n7 3 2 5 1 1 2 5 4\n8 3 2 6 2 2 3 6 5\n$EndElements\n";
+
+// Columns of one packing side by side between smooth platens, the right one of joints half as stiff: both are strained
+// alike, with no stress between them, so that the sample carries the mean of what each would carry alone. With a fifth of the
+// strength the right one breaks, at a strain at which the left one holds.
+TEST(Multiscale, TakesTheRocksOfTheGroupsOfItsMesh)
+{
+  TemporaryFolder folder;
+  folder.write("columns.msh", two_columns);
+  const auto run = [&](const std::string& name, const std::string& rocks, const std::string& stop) {
+    folder.write(name + ".csv", rocks);
+    std::string text = input("  set Mesh file = columns.msh\n  set Orientation = fixed\n" +
+                               (rocks.empty() ? "" : "  set Rocks = " + name + ".csv\n"),
+                             "  set List = direct_tension\n  set Stop strain = " + stop + "\n");
+    text.replace(text.find("Realisations = 2"), 16, "Realisations = 1");
+    folder.write(name + ".prm", text);
+    const auto outcome =
+      run_without_pictures(folder.path(), "multiscale " + name + ".prm --output " + name + " --quiet");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return folder.path() / name;
+  };
+  const auto stress = [](const std::filesystem::path& out) {
+    return cell(out / "curves/direct_tension_seed_1.csv", "axial_stress_Pa", 10);
+  };
+  const double whole = stress(run("whole", "", "2e-5"));
+  const double half = stress(run("half", "group,Flat joint/Modulus [GPa]\nright_column,40\n", "2e-5"));
+  const double quarters =
+    stress(run("both", "group,Flat joint/Modulus [GPa]\nleft_column,40\nright_column,20\n", "2e-5"));
+  EXPECT_NEAR(half, 0.75 * whole, 1e-4 * whole); // Newton tolerance 1e-5
+  EXPECT_NEAR(quarters, 0.375 * whole, 1e-4 * whole);
+
+  const std::string weak =
+    "group,Flat joint/Bond tensile strength [MPa],Flat joint/Bond cohesion [MPa]\nright_column,4,30\n";
+  EXPECT_EQ(cells_that_broke(run("weak", weak, "5e-5")), (std::set<int>{1}));
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale weak --extract 1:0 --quiet").exit_code, 0);
+
+  const auto refused = [&](const std::string& rocks, const std::string& words) {
+    folder.write("bad.csv", rocks);
+    folder.write("bad.prm",
+                 input("  set Mesh file = columns.msh\n  set Rocks = bad.csv\n", "  set List = direct_tension\n"));
+    const auto outcome = run_feldspar(folder.path(), "multiscale bad.prm --output bad");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
+    EXPECT_NE(outcome.error.find(words), std::string::npos) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  };
+  refused("group,Flat joint/Modulus [GPa]\nseam,20\n",
+          "Sample/Mesh file = columns.msh: no group of cells is named seam; the mesh has left_column, right_column");
+  refused("rock,Flat joint/Modulus [GPa]\nseam,20\n", "bad.csv:1: ");
+  refused("group,Specimen/Width [mm]\nleft_column,20\n", "Specimen/Width is one for all rocks of a sample");
+  refused("group,Flat joint/Segments\nleft_column,3\nleft_column,4\n", "each row needs a group of its own; row 2 has");
+}
+
 TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
 {
   TemporaryFolder folder;
@@ -699,15 +765,6 @@ TEST(Multiscale, HoldsTheConfinementBetweenRoughPlatens)
   for (std::string name; name != "mid_stress_Pa";)
     ASSERT_TRUE(std::getline(names, name, ',') && std::getline(values, value, ',')) << header;
   EXPECT_NEAR(std::stod(value), 20e6, 1e-4 * 20e6); // Newton tolerance 1e-5
-}
-
-/// Cells of which a segment broke; four points a cell.
-std::set<int> cells_that_broke(const std::filesystem::path& run)
-{
-  std::set<int> cells;
-  for (const double point : column(run / "cracks.csv", "joint"))
-    cells.insert(int(point) / 4);
-  return cells;
 }
 
 // One RVE at all points of three rows of two: but for the seed nothing tells them apart, and they break at a strain of

@@ -245,6 +245,30 @@ TEST(GmshMesh, GivesGroupsTheNamesThatTheUserMaps)
     }
 }
 
+// The cells of both squares are the group rock; a surface that is in a second group too has no single rock.
+TEST(GmshMesh, GivesCellsTheirGroups)
+{
+  const tests::TemporaryFolder folder;
+  const auto mesh = read_gmsh<2>(MPI_COMM_WORLD, folder.write("mesh.msh", squares_2_2), 0);
+  for (const auto& cell : mesh.triangulation->active_cell_iterators())
+    EXPECT_EQ(cell->material_id(), mesh.group("rock"));
+  const auto complaint_on = [](const SampleMesh<2>& of, const std::string& group) -> std::string {
+    try
+      {
+        of.group(group);
+        return "";
+      }
+    catch (const MeshError& error)
+      {
+        return error.what();
+      }
+  };
+  EXPECT_EQ(complaint_on(mesh, "seam"), "no group of cells is named seam; the mesh has rock");
+  const std::string both = with(squares_4_1, "1 0 0 0 2 1 0 0 1 3", "1 0 0 0 2 1 0 2 5 8 1 3");
+  EXPECT_EQ(complaint_on(read_gmsh<2>(MPI_COMM_WORLD, folder.write("both.msh", both), 0), "5"),
+            "the cell at (0.5, 0.5) m is in several physical groups, and a rock is that of one");
+}
+
 TEST(GmshMesh, TakesBinaryFiles)
 {
   const tests::TemporaryFolder folder;

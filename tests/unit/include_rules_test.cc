@@ -90,7 +90,7 @@ const std::vector<std::string> rooms_of_the_command = {"app/processes", "app/inp
                                                        "app/programme", "app/calibration", "app/commands"};
 
 /// Folders that may include any room, but for those named.
-const std::vector<std::string> above_all = {"app", "benchmarks", "library", "python", "tests"};
+const std::vector<std::string> above_all = {"app", "benchmarks", "interfaces", "library", "python", "tests"};
 
 /// Rooms that may include headers of deal.II; no others may.
 const std::vector<std::string> rooms_of_finite_elements = {"fem", "coupling/sample", "app/processes", "tests",

@@ -1665,7 +1665,7 @@ TEST(CrackMap, NumbersTheFirstJointsThatBroke)
   add(2, 20, 0.030); // in the same step
   add(5, 30, 0.040);
   const MapPaper paper{{0.0, 0.0}, {0.1, 0.1}, letter};
-  const auto first = number_first_cracks(cracks, 1, paper);
+  const auto first = number_first_cracks(cracks, paper);
   ASSERT_EQ(first.size(), 4u);
   const std::size_t expected[] = {1, 2, 2, 4};
   const double at[] = {0.010, 0.0101, 0.030, 0.040};
@@ -1678,11 +1678,11 @@ TEST(CrackMap, NumbersTheFirstJointsThatBroke)
   EXPECT_GT(std::hypot(first[0].place[0] - first[1].place[0], first[0].place[1] - first[1].place[1]), letter);
   for (std::uint64_t k = 0; k < 20; ++k)
     add(100 + k, 40 + k, 0.05);
-  EXPECT_EQ(number_first_cracks(cracks, 1, paper).size(), 10u);
+  EXPECT_EQ(number_first_cracks(cracks, paper).size(), 10u);
 
   // Beside the lower axis there is room above a crack only.
   const double floor = 0.01 - letter;
-  for (const auto& one : number_first_cracks(cracks, 1, {{0.0, floor}, {0.1, 0.1}, letter}))
+  for (const auto& one : number_first_cracks(cracks, {{0.0, floor}, {0.1, 0.1}, letter}))
     EXPECT_GT(one.place[1], floor + 0.5 * letter);
 
   const auto map = crack_map(compression(1), "rock").at(0);

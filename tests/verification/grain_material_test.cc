@@ -414,14 +414,15 @@ TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirRves)
 {
   constexpr double share = 0.8;
   std::vector<Realisation<2>> realisations;
-  WeakCells<2> weak{{"1_0:"}, {}};
+  std::vector<Realisation<2>> twins;
   for (const std::uint64_t seed : {1, 2})
     {
       const Specimen<2> specimen = periodic_specimen(seed);
       realisations.push_back(std::make_shared<const Network<2>>(specimen));
-      weak.twins.push_back(std::make_shared<const Network<2>>(weakened<2>(specimen, share)));
+      twins.push_back(std::make_shared<const Network<2>>(weakened<2>(specimen, share)));
+      twins.back().rock = "weak";
       const Network<2>& usual = *realisations.back().inside;
-      const Network<2>& twin = *weak.twins.back().inside;
+      const Network<2>& twin = *twins.back().inside;
       EXPECT_EQ(twin.intact_stiffness(), usual.intact_stiffness());
       for (std::uint32_t k = 0; k < usual.n_segments(); ++k)
         {
@@ -434,7 +435,9 @@ TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirRves)
       EXPECT_DOUBLE_EQ(twin.first_break(pull).factor, share * usual.first_break(pull).factor);
     }
   const auto plain = grain_material<2>(realisations, {});
-  const auto seeded = grain_material<2>(realisations, {}, weak);
+  std::vector<Realisation<2>> all = realisations;
+  all.insert(all.end(), twins.begin(), twins.end());
+  const auto seeded = grain_material<2>(all, {}, {{"1_0:", "weak"}});
   std::set<const Network<2>*> twins_used;
   for (const std::string cell : {"0_0:", "1_0:"})
     for (unsigned int q = 0; q < 20; ++q)
@@ -450,7 +453,7 @@ TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirRves)
         const Network<2>* expected = usual;
         if (cell == "1_0:")
           {
-            expected = weak.twins[usual == realisations[0].inside.get() ? 0 : 1].inside.get();
+            expected = twins[usual == realisations[0].inside.get() ? 0 : 1].inside.get();
             twins_used.insert(expected);
           }
         EXPECT_EQ(&grains_of(with).rve().network(), expected);

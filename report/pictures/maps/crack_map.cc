@@ -29,15 +29,14 @@ std::vector<Crack> carried(const FinishedTest& test)
 }
 
 /// The order in which the first joints broke, on a map of that stage; those that broke later in grey.
-void add_numbers(Chart& chart, const std::vector<Crack>& cracks, const std::size_t axis, const MapStage& stage,
-                 const MapPaper& paper)
+void add_numbers(Chart& chart, const std::vector<Crack>& cracks, const MapStage& stage, const MapPaper& paper)
 {
-  const auto first = number_first_cracks(cracks, axis, paper);
+  const auto first = number_first_cracks(cracks, paper);
   ChartSeries later{.kind = ChartSeries::Kind::segments, .colour = "#707070", .width = 1.8};
   for (const auto& crack : cracks)
     if (crack.step > stage.last_step &&
         std::any_of(first.begin(), first.end(), [&](const auto& one) { return one.joint == crack.joint; }))
-      later.points.push_back(trace_of(crack, axis));
+      later.points.push_back(trace_of(crack));
   ChartSeries numbers{.kind = ChartSeries::Kind::texts, .colour = "#101010", .size = 14.0};
   for (const auto& one : first)
     {
@@ -56,7 +55,6 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
   const auto& grains = test.appearance.grains_at_end;
   if (grains.empty() || record.curve.empty())
     return {};
-  const std::size_t axis = vertical_axis(record);
   const auto all_stages = map_stages(record);
   const std::string alternative =
     fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.", title, seed_of(test),
@@ -84,7 +82,7 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
         {
           const auto& centre = at_end ? grains[i].position : grains[i].start;
           circles.points.push_back(
-            {centre[0] / milli, centre[axis] / milli, grains[i].radius / milli, double(colours[i])});
+            {centre[0] / milli, centre[1] / milli, grains[i].radius / milli, double(colours[i])});
         }
       chart.series.push_back(std::move(circles));
       append(chart.series, flaw_lines(test));
@@ -92,9 +90,9 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
       std::vector<Crack> broken;
       std::copy_if(cracks.begin(), cracks.end(), std::back_inserter(broken),
                    [&](const Crack& crack) { return crack.step <= stage.last_step; });
-      append(chart.series, crack_traces(broken, axis, 1.8));
+      append(chart.series, crack_traces(broken, 1.8));
       if (panels.empty())
-        add_numbers(chart, cracks, axis, stage, paper_of(frame));
+        add_numbers(chart, cracks, stage, paper_of(frame));
       panels.push_back(std::move(chart));
     }
   const auto [width, height] = panel_size(frame);

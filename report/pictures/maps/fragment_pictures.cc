@@ -1,5 +1,6 @@
 #include "report/pictures/figures.h"
 #include "report/pictures/maps/map.h"
+#include "report/pictures/maps/specimen_data.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
@@ -35,16 +36,34 @@ std::map<std::uint32_t, double> fragment_diameters(const FinishedTest& test)
 }
 } // namespace
 
-Pictures fragment_map(const FinishedTest& whole, const std::string& title)
+Pictures fragment_map(const FinishedTest& test, const std::string& title)
 {
-  if (whole.appearance.grains_at_end.empty())
+  if (test.appearance.grains_at_end.empty())
     return {};
-  const FinishedTest test = cut_open(whole);
   const TestRecord& record = test.record;
-  const std::size_t axis = vertical_axis(record);
+  Picture picture{
+    .name = test.name + "_fragments",
+    .caption = "",
+    .alternative =
+      fmt::format("Map of the fragments of {} ({}): {} of two grains or more; the largest has {:.0f} % of the volume.",
+                  title, seed_of(test), test.results.n_fragments.value.value_or(0.0),
+                  100.0 * test.results.largest_fragment_share.value.value_or(0.0)),
+    .raster = true,
+    .vector = false};
+  if (record.dimension() == 3)
+    {
+      picture.caption =
+        fmt::format("{}, {}: fragments at the end, on the half behind the mid-plane, where their grains "
+                    "were at the start",
+                    title, seed_of(test));
+      picture.width = 300;
+      picture.height = 600;
+      picture.body = specimen_data({{&test, fmt::format("{}, {}", title, seed_of(test))}}, ShownOnPaper::fragments);
+      return {std::move(picture)};
+    }
   const MapFrame map_frame = map_frame_of(test);
   const MapLimits& frame = map_frame.frame;
-  const auto diameters = fragment_diameters(whole);
+  const auto diameters = fragment_diameters(test);
   double smallest = std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const auto& [number, diameter] : diameters)
@@ -54,9 +73,9 @@ Pictures fragment_map(const FinishedTest& whole, const std::string& title)
         largest = std::max(largest, diameter);
       }
   const auto& grains = test.appearance.grains_at_end;
-  ChartSeries body = grain_circles(grains, false, axis);
+  ChartSeries body = grain_circles(grains, false);
   body.label = "largest piece";
-  ChartSeries loose = grain_circles(grains, true, axis);
+  ChartSeries loose = grain_circles(grains, true);
   loose.colours = ChartSeries::Colours::by_value;
   auto circle = loose.points.begin();
   for (const auto& grain : grains)
@@ -75,18 +94,12 @@ Pictures fragment_map(const FinishedTest& whole, const std::string& title)
       chart.colour.to = 1.05 * largest / milli;
     }
   const auto [width, height] = panel_size(frame);
-  return {{.name = test.name + "_fragments",
-           .caption = fmt::format("{}, {}: fragments at the end, coloured by their size{}", title, seed_of(test),
-                                  map_frame.remark()),
-           .alternative = fmt::format(
-             "Map of the fragments of {} ({}): {} of two grains or more; the largest has {:.0f} % of the volume.",
-             title, seed_of(test), test.results.n_fragments.value.value_or(0.0),
-             100.0 * test.results.largest_fragment_share.value.value_or(0.0)),
-           .width = width + 90,
-           .height = height,
-           .raster = true,
-           .vector = false,
-           .panels = {std::move(chart)}}};
+  picture.caption =
+    fmt::format("{}, {}: fragments at the end, coloured by their size{}", title, seed_of(test), map_frame.remark());
+  picture.width = width + 90;
+  picture.height = height;
+  picture.panels = {std::move(chart)};
+  return {std::move(picture)};
 }
 
 Pictures fragment_size_picture(const SeriesAmong& of)

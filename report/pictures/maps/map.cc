@@ -36,52 +36,50 @@ bool holds(const MapPaper& paper, const Point& place)
 
 std::vector<ChartSeries> flaw_lines(const FinishedTest& test)
 {
-  const std::size_t axis = test.record.size[2] > 0.0 ? 2 : 1;
   ChartSeries open{.colour = "#202020", .width = 1.2};
   ChartSeries closed{.label = "flaw", .colour = "#202020", .width = 3.0};
   for (const auto& flaw : test.appearance.flaws)
     {
       auto& points = (flaw.open ? open : closed).points;
       for (const auto& point : flaw.outline)
-        points.push_back({point[0] / milli, point[axis] / milli});
+        points.push_back({point[0] / milli, point[1] / milli});
       points.push_back(gap);
     }
   return {open, closed};
 }
 
-ChartSeries grain_circles(const std::vector<GrainPicture>& grains, const bool loose, const std::size_t axis,
+ChartSeries grain_circles(const std::vector<GrainPicture>& grains, const bool loose,
                           const std::array<double, 2>& origin)
 {
   ChartSeries circles{.kind = ChartSeries::Kind::circles, .colour = loose ? single_grain_colour : light_grey};
   for (const GrainPicture& grain : grains)
     if ((grain.fragment > 0) == loose)
       circles.points.push_back(
-        {(grain.position[0] - origin[0]) / milli, (grain.position[axis] - origin[1]) / milli, grain.radius / milli});
+        {(grain.position[0] - origin[0]) / milli, (grain.position[1] - origin[1]) / milli, grain.radius / milli});
   return circles;
 }
 
-ChartPoint trace_of(const Crack& crack, const std::size_t axis, const std::array<double, 2>& origin)
+ChartPoint trace_of(const Crack& crack, const std::array<double, 2>& origin)
 {
-  const double dx = -crack.normal[axis] * crack.size;
+  const double dx = -crack.normal[1] * crack.size;
   const double dy = crack.normal[0] * crack.size;
-  return {(crack.centroid[0] - origin[0] - 0.5 * dx) / milli, (crack.centroid[axis] - origin[1] - 0.5 * dy) / milli,
+  return {(crack.centroid[0] - origin[0] - 0.5 * dx) / milli, (crack.centroid[1] - origin[1] - 0.5 * dy) / milli,
           dx / milli, dy / milli};
 }
 
-std::vector<ChartSeries> crack_traces(const std::vector<Crack>& cracks, const std::size_t axis, const double width,
+std::vector<ChartSeries> crack_traces(const std::vector<Crack>& cracks, const double width,
                                       const std::array<double, 2>& origin)
 {
   ChartSeries tension{.kind = ChartSeries::Kind::segments, .colour = tension_colour, .width = width};
   ChartSeries shear{.kind = ChartSeries::Kind::segments, .colour = shear_colour, .width = width};
   for (const Crack& crack : cracks)
-    (crack.kind == CrackKind::tension ? tension : shear).points.push_back(trace_of(crack, axis, origin));
+    (crack.kind == CrackKind::tension ? tension : shear).points.push_back(trace_of(crack, origin));
   tension.label = fmt::format("tension: {}", tension.points.size());
   shear.label = fmt::format("shear: {}", shear.points.size());
   return {tension, shear};
 }
 
-std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks, const std::size_t axis,
-                                               const MapPaper& paper)
+std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks, const MapPaper& paper)
 {
   constexpr std::size_t most = 10; // more would cover one another
   std::vector<NumberedCrack> result;
@@ -93,7 +91,7 @@ std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks,
       {
         const bool at_once = !result.empty() && crack.step == step_before;
         result.push_back(
-          {crack.joint, at_once ? result.back().number : joints.size(), {crack.centroid[0], crack.centroid[axis]}});
+          {crack.joint, at_once ? result.back().number : joints.size(), {crack.centroid[0], crack.centroid[1]}});
         taken.push_back(result.back().place);
         step_before = crack.step;
       }
@@ -120,23 +118,6 @@ std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks,
       taken.push_back(result[k].place);
     }
   return result;
-}
-
-FinishedTest cut_open(FinishedTest test)
-{
-  if (test.record.dimension() == 2)
-    return test;
-  const double middle = 0.5 * test.record.size[1];
-  auto& grains = test.appearance.grains_at_end;
-  double radius = 0.0;
-  for (const GrainPicture& grain : grains)
-    radius = std::max(radius, grain.radius);
-  std::erase_if(grains, [&](const GrainPicture& grain) { return grain.start[1] < middle; });
-  std::stable_sort(grains.begin(), grains.end(),
-                   [](const GrainPicture& a, const GrainPicture& b) { return a.start[1] > b.start[1]; });
-  std::erase_if(test.record.cracks,
-                [&](const Crack& crack) { return std::abs(crack.centroid[1] - middle) > 2.0 * radius; });
-  return test;
 }
 
 std::size_t vertical_axis(const TestRecord& record) { return record.size[2] > 0.0 ? 2 : 1; }

@@ -19,16 +19,16 @@ namespace feldspar
 /// ones as lines.
 std::vector<ChartSeries> flaw_lines(const FinishedTest& test);
 
-/// Grains at the end as circles in the plane of the first axis and another, in millimetres from an origin [m]: those of the
-/// largest fragment, or the loose ones.
-ChartSeries grain_circles(const std::vector<GrainPicture>& grains, bool loose, std::size_t axis,
+/// Grains in the plane at the end as circles, in millimetres from an origin [m]: those of the largest fragment, or the
+/// loose ones.
+ChartSeries grain_circles(const std::vector<GrainPicture>& grains, bool loose,
                           const std::array<double, 2>& origin = {});
 
-/// The trace of a crack's face in that plane.
-ChartPoint trace_of(const Crack& crack, std::size_t axis, const std::array<double, 2>& origin = {});
+/// The trace of a crack's face in the plane.
+ChartPoint trace_of(const Crack& crack, const std::array<double, 2>& origin = {});
 
 /// The cracks of each kind as traces of this width, with their numbers in the key.
-std::vector<ChartSeries> crack_traces(const std::vector<Crack>& cracks, std::size_t axis, double width,
+std::vector<ChartSeries> crack_traces(const std::vector<Crack>& cracks, double width,
                                       const std::array<double, 2>& origin = {});
 
 /// A crack of a joint among the first that broke.
@@ -47,13 +47,8 @@ struct MapPaper
   double letter; ///< the height of one
 };
 
-/// The first ten joints that broke. Cracks in the order in which they broke; the vertical axis of the picture.
-std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks, std::size_t axis,
-                                               const MapPaper& paper);
-
-/// The half of a body in space behind its mid-plane, the farthest grains first, with the cracks near the cut. A body in
-/// the plane stays as it is.
-FinishedTest cut_open(FinishedTest test);
+/// The first ten joints that broke. Cracks in the order in which they broke.
+std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks, const MapPaper& paper);
 
 /// The axis of the tests: the last one.
 std::size_t vertical_axis(const TestRecord& record);

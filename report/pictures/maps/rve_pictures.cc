@@ -117,9 +117,9 @@ Pictures rve_picture(const FinishedTest& test, const std::string& title)
         .y = {.label = "y from the point [mm]", .from = -reach, .to = reach},
         .equal_scales = true,
         .key_columns = 3,
-        .series = {grain_circles(rves[k].grains, false, 1, centre), grain_circles(rves[k].grains, true, 1, centre)}};
+        .series = {grain_circles(rves[k].grains, false, centre), grain_circles(rves[k].grains, true, centre)}};
       chart.series.back().label = "cut off";
-      append(chart.series, crack_traces(rves[k].cracks, 1, 2.2, centre));
+      append(chart.series, crack_traces(rves[k].cracks, 2.2, centre));
       panels.push_back(std::move(chart));
     }
   return {{.name = name,

@@ -235,13 +235,15 @@ Json data_of(const TitledTest& one, const std::size_t n)
 }
 } // namespace
 
-std::string specimen_data(const std::vector<TitledTest>& tests)
+std::string specimen_data(const std::vector<TitledTest>& tests, const ShownOnPaper on_paper)
 {
   const auto n = std::size_t(std::count_if(tests.begin(), tests.end(), is_shown));
   Json all = Json::array();
   for (const TitledTest& one : tests)
     if (is_shown(one))
       all.push_back(data_of(one, n));
-  return n == 0 ? "" : live::text({{"what", "specimens"}, {"tests", all}});
+  return n == 0
+           ? ""
+           : live::text({{"what", "specimens"}, {"fragments", on_paper == ShownOnPaper::fragments}, {"tests", all}});
 }
 } // namespace feldspar

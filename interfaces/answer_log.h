@@ -1,0 +1,62 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+/// The strains that a job asked of its points, in a file beside it: what a job needs that goes on from a restart file, which
+/// has strains, but no tokens.
+namespace feldspar::interfaces
+{
+/// A point of a foreign mesh.
+struct PointName
+{
+  std::uint32_t element;
+  std::uint32_t point;
+
+  bool operator==(const PointName&) const = default;
+};
+
+/// Returns whether two strains differ by round-off alone; an empty one is that of no point.
+bool is_same_strain(std::span<const double> one, std::span<const double> other);
+
+/// An answer. Its token is its place in the file, counted from 1; token 0 is a point at rest.
+struct AnswerRecord
+{
+  PointName name;
+  std::uint64_t parent; ///< token of the state from which it was asked
+  double strain[6];     ///< Voigt, engineering shear; the first three in the plane
+};
+
+/// Answers are written as they are made, so that a killed job loses none. Any number of threads.
+class AnswerLog
+{
+public:
+  /// Begins a file, or goes on with that of an earlier job. identity: of program, input and mode. Throws Error where the file
+  /// cannot be written, or is of other ones.
+  AnswerLog(std::string file, std::uint64_t identity, bool goes_on);
+  AnswerLog(const AnswerLog&) = delete;
+  AnswerLog& operator=(const AnswerLog&) = delete;
+  ~AnswerLog();
+
+  /// Writes an answer. Returns its token.
+  std::uint64_t add(const AnswerRecord& record);
+
+  /// The answers that led to a strain of a point, the first one first: the last of the file at that strain within round-off.
+  /// Throws Error where the file has none.
+  std::vector<std::uint64_t> way_to(PointName name, std::span<const double> strain) const;
+  /// The same to a token.
+  std::vector<std::uint64_t> way_to(std::uint64_t token) const;
+  AnswerRecord operator[](std::uint64_t token) const;
+
+private:
+  std::string file;
+  int descriptor = -1;
+  std::atomic<std::uint64_t> n_records = 0;
+  /// Tokens of the answers that were in the file when it was opened.
+  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> earlier;
+};
+} // namespace feldspar::interfaces

@@ -1,0 +1,28 @@
+#include "interfaces/job.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace feldspar::interfaces
+{
+std::string input_file_of(const std::string& material)
+{
+  std::string small = material;
+  std::ranges::transform(small, small.begin(), [](const unsigned char c) { return char(std::tolower(c)); });
+  for (const std::string& name : {small, material})
+    for (const char* const ending : {".prm", ".json"})
+      if (std::filesystem::exists(name + ending))
+        return name + ending;
+  throw Error("material " + material + ": there is no input " + small + ".prm or .json in the folder of the job");
+}
+
+std::array<double, n_state_variables> state_variables_of(const Answer& answer)
+{
+  const Damage& damage = answer.damage;
+  std::array<double, n_state_variables> values{double(answer.token), damage.broken_share, damage.broken_in_shear_share,
+                                               damage.dissipation, damage.crack_density};
+  std::ranges::copy(damage.crack_orientation, values.begin() + 5);
+  return values;
+}
+} // namespace feldspar::interfaces
