@@ -32,6 +32,7 @@ test_packages=(
   clang clang-format clang-tidy python3 libgtest-dev libbenchmark-dev locales chromium slurm-wlm
   python3-vtk9 # reads fields/ as ParaView does, for a test
   mypy jupyter-nbconvert python3-ipykernel # of the Python module and its notebooks
+  python3-getfem # of examples/other-codes
   r-base-core # scripts of docs/recipes.md
 )
 

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,13 +17,7 @@ namespace feldspar::interfaces
 {
 namespace
 {
-struct Head
-{
-  char mark[8];
-  std::uint64_t identity;
-};
-
-constexpr char mark[8] = {'f', 'e', 'l', 'd', 's', 'p', 'a', 'r'};
+constexpr double mark[6] = {70.0, 69.0, 76.0, 68.0, 83.0, 80.0}; // FELDSP
 
 std::uint64_t key_of(const PointName name) { return (std::uint64_t(name.element) << 32U) | name.point; }
 
@@ -47,56 +42,78 @@ bool is_same_strain(const std::span<const double> one, const std::span<const dou
 AnswerLog::AnswerLog(std::string its_file, const std::uint64_t identity, const bool goes_on)
   : file(std::move(its_file))
   , descriptor(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | (goes_on ? 0 : O_TRUNC), 0644))
+  , pieces(most_pieces)
 {
-  Head head{};
-  std::memcpy(head.mark, mark, sizeof mark);
-  head.identity = identity;
   struct stat about
   {
   };
   if (descriptor < 0 || fstat(descriptor, &about) != 0)
     throw Error(file + ": cannot be written; it keeps what a restart needs");
+  AnswerRecord head{{}, identity, {}};
+  std::copy(std::begin(mark), std::end(mark), head.strain);
+  if (about.st_size == 0 && goes_on)
+    throw Error(file +
+                ": is missing; a restarted job needs the file .feldspar of the job that it goes on with, under its own "
+                "name");
   if (about.st_size == 0)
-    {
-      if (goes_on)
-        throw Error(file +
-                    ": is missing; a restarted job needs the file .feldspar of the job that it goes on with, under "
-                    "its own name");
-      if (pwrite(descriptor, &head, sizeof head, 0) != ssize_t(sizeof head))
-        throw Error(file + ": cannot be written; it keeps what a restart needs");
-      return;
-    }
-  Head found{};
-  if (pread(descriptor, &found, sizeof found, 0) != ssize_t(sizeof found) ||
-      std::memcmp(&found, &head, sizeof head) != 0)
+    at(0) = head;
+  else if (std::memcmp(&at(0), &head, sizeof head) != 0)
     throw Error(file + ": is of another input, mode or version of Feldspar than this job");
-  n_records = (std::uint64_t(about.st_size) - sizeof head) / sizeof(AnswerRecord);
+  // The last piece of a killed job ends with zeros.
+  const AnswerRecord none{};
+  for (std::uint64_t n = std::uint64_t(about.st_size) / sizeof none; n > 1 && n_records == 0; --n)
+    if (std::memcmp(&at(n - 1), &none, sizeof none) != 0)
+      n_records = n - 1;
   for (std::uint64_t token = 1; token <= n_records; ++token)
-    earlier[key_of((*this)[token].name)].push_back(token);
+    earlier[key_of(at(token).name)].push_back(token);
 }
 
-AnswerLog::~AnswerLog() { close(descriptor); }
+AnswerLog::~AnswerLog()
+{
+  for (AnswerRecord* const piece : pieces)
+    if (piece != nullptr)
+      munmap(piece, records_of_piece * sizeof(AnswerRecord));
+  if (ftruncate(descriptor, off_t((n_records + 1) * sizeof(AnswerRecord))) == 0)
+    close(descriptor);
+}
+
+AnswerRecord& AnswerLog::at(const std::uint64_t place)
+{
+  std::atomic<AnswerRecord*>& piece = pieces.at(place / records_of_piece);
+  if (piece.load(std::memory_order_acquire) == nullptr)
+    {
+      const std::lock_guard lock(growing);
+      if (piece == nullptr)
+        {
+          constexpr std::uint64_t size = records_of_piece * sizeof(AnswerRecord);
+          const auto begin = off_t(place / records_of_piece * size);
+          // Room that is not there would end the job at the first write, without a word.
+          void* const memory = posix_fallocate(descriptor, begin, off_t(size)) == 0
+                                 ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, begin)
+                                 : MAP_FAILED;
+          if (memory == MAP_FAILED)
+            throw Error(file + ": cannot be written: no space is left");
+          piece.store(static_cast<AnswerRecord*>(memory), std::memory_order_release);
+        }
+    }
+  return piece.load(std::memory_order_acquire)[place % records_of_piece];
+}
 
 std::uint64_t AnswerLog::add(const AnswerRecord& record)
 {
-  const std::uint64_t before = n_records++;
-  if (pwrite(descriptor, &record, sizeof record, off_t(sizeof(Head) + before * sizeof record)) !=
-      ssize_t(sizeof record))
-    throw Error(file + ": cannot be written: no space is left, or the folder is gone");
-  return before + 1;
+  const std::uint64_t token = ++n_records;
+  at(token) = record;
+  return token;
 }
 
-AnswerRecord AnswerLog::operator[](const std::uint64_t token) const
+const AnswerRecord& AnswerLog::operator[](const std::uint64_t token)
 {
-  AnswerRecord record{};
-  if (token == 0 || token > n_records ||
-      pread(descriptor, &record, sizeof record, off_t(sizeof(Head) + (token - 1) * sizeof record)) !=
-        ssize_t(sizeof record))
+  if (token == 0 || token > n_records)
     throw Error(file + ": has no answer " + std::to_string(token) + "; the job uses a state that was never handed out");
-  return record;
+  return at(token);
 }
 
-std::vector<std::uint64_t> AnswerLog::way_to(std::uint64_t token) const
+std::vector<std::uint64_t> AnswerLog::way_to(std::uint64_t token)
 {
   std::vector<std::uint64_t> way;
   for (; token != 0; token = (*this)[token].parent)
@@ -105,7 +122,7 @@ std::vector<std::uint64_t> AnswerLog::way_to(std::uint64_t token) const
   return way;
 }
 
-std::vector<std::uint64_t> AnswerLog::way_to(const PointName name, const std::span<const double> strain) const
+std::vector<std::uint64_t> AnswerLog::way_to(const PointName name, const std::span<const double> strain)
 {
   if (const auto known = earlier.find(key_of(name)); known != earlier.end())
     for (auto token = known->second.rbegin(); token != known->second.rend(); ++token)

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -23,7 +25,8 @@ struct PointName
 /// Returns whether two strains differ by round-off alone; an empty one is that of no point.
 bool is_same_strain(std::span<const double> one, std::span<const double> other);
 
-/// An answer. Its token is its place in the file, counted from 1; token 0 is a point at rest.
+/// An answer. Its token is its place in the file, counted from 1; token 0 is a point at rest. In the place 0 the file has its
+/// mark and identity.
 struct AnswerRecord
 {
   PointName name;
@@ -31,7 +34,7 @@ struct AnswerRecord
   double strain[6];     ///< Voigt, engineering shear; the first three in the plane
 };
 
-/// Answers are written as they are made, so that a killed job loses none. Any number of threads.
+/// The file is memory that the system writes to the disk, so that a killed job loses no answer. Any number of threads.
 class AnswerLog
 {
 public:
@@ -47,14 +50,22 @@ public:
 
   /// The answers that led to a strain of a point, the first one first: the last of the file at that strain within round-off.
   /// Throws Error where the file has none.
-  std::vector<std::uint64_t> way_to(PointName name, std::span<const double> strain) const;
+  std::vector<std::uint64_t> way_to(PointName name, std::span<const double> strain);
   /// The same to a token.
-  std::vector<std::uint64_t> way_to(std::uint64_t token) const;
-  AnswerRecord operator[](std::uint64_t token) const;
+  std::vector<std::uint64_t> way_to(std::uint64_t token);
+  /// Throws Error for a token that was never handed out.
+  const AnswerRecord& operator[](std::uint64_t token);
 
 private:
+  static constexpr std::uint64_t records_of_piece = 1U << 16U; ///< 4 MiB
+  static constexpr std::size_t most_pieces = 1U << 14U;        ///< 64 GiB
+
+  AnswerRecord& at(std::uint64_t place);
+
   std::string file;
-  int descriptor = -1;
+  int descriptor;
+  std::mutex growing;
+  std::vector<std::atomic<AnswerRecord*>> pieces;
   std::atomic<std::uint64_t> n_records = 0;
   /// Tokens of the answers that were in the file when it was opened.
   std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> earlier;

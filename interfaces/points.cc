@@ -49,26 +49,24 @@ Points::Points(const std::string& input_file, std::string its_log, const Breakin
     rocks.emplace_back(Specimen(input, seed * n + k), input);
 }
 
-AnswerLog& Points::log_of(const bool goes_on)
-{
-  const std::lock_guard lock(of_points);
-  if (!log)
-    log = std::make_unique<AnswerLog>(log_file, identity_of(input, breaking), goes_on);
-  return *log;
-}
-
 Points::Point Points::at_rest(const PointName name) const
 {
   return {.accepted = rocks[mixed(seed ^ mixed(number_of(name))) % rocks.size()]};
 }
 
-Points::Point& Points::point_of(const PointName name)
+Points::Point& Points::point_of(const PointName name, const bool is_restarted)
 {
   const std::lock_guard lock(of_points);
-  auto& point = points[number_of(name)];
-  if (!point)
-    point = std::make_unique<Point>(at_rest(name));
-  return *point;
+  if (!log)
+    log = std::make_unique<AnswerLog>(log_file, identity_of(input, breaking), is_restarted);
+  if (name.element >= points.size())
+    points.resize(name.element + 1);
+  auto& of_element = points[name.element];
+  if (name.point >= of_element.size())
+    of_element.resize(name.point + 1);
+  if (!of_element[name.point])
+    of_element[name.point] = std::make_unique<Point>(at_rest(name));
+  return *of_element[name.point];
 }
 
 void Points::accept_tried(Point& point) const
@@ -100,17 +98,16 @@ Answer Points::respond(const PointName name, const std::uint64_t parent, const s
 {
   const bool is_restarted =
     parent == 0 && std::any_of(before.begin(), before.end(), [](const double x) { return x != 0.0; });
-  const AnswerLog& known = log_of(is_restarted);
-  Point& point = point_of(name);
+  Point& point = point_of(name, is_restarted);
   if (point.tried && parent == point.tried_token)
     accept_tried(point);
   else if (is_restarted)
     {
       if (!is_same_strain(before, point.accepted_strain))
-        go(point, name, known.way_to(name, before));
+        go(point, name, log->way_to(name, before));
     }
   else if (parent != point.accepted_token)
-    go(point, name, known.way_to(parent));
+    go(point, name, log->way_to(parent));
 
   if (!point.tried || !std::ranges::equal(point.tried_strain, strain))
     {

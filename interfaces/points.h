@@ -12,7 +12,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 /// Representative volumes at the points of a foreign mesh, which asks point by point and keeps one number a point, the token of
@@ -66,8 +65,8 @@ private:
   {
     return breaking == Breaking::lagged ? point.accepted.trial(strain, true) : point.accepted.relax(strain, true);
   }
-  Point& point_of(PointName name);
-  AnswerLog& log_of(bool goes_on);
+  /// The point, and the log that is there from the first call on.
+  Point& point_of(PointName name, bool is_restarted);
   void accept_tried(Point& point) const;
   /// Brings a point to the end of a way of answers.
   void go(Point& point, PointName name, const std::vector<std::uint64_t>& way) const;
@@ -79,6 +78,6 @@ private:
   std::string log_file;
   std::unique_ptr<AnswerLog> log;
   std::mutex of_points;
-  std::unordered_map<std::uint64_t, std::unique_ptr<Point>> points;
+  std::vector<std::vector<std::unique_ptr<Point>>> points; ///< by element and point
 };
 } // namespace feldspar::interfaces

@@ -123,6 +123,8 @@ Damage Rve::damage() const
 {
   return of->alone([]<int dim>(const Cell<dim>& cell) {
     const NetworkState<dim>& state = cell.state();
+    if (state.intact)
+      return Damage{.crack_orientation = std::vector<double>(n_voigt<dim>, 0.0)};
     const auto n = double(cell.network().n_segments());
     const CrackMeasures<dim> cracks = crack_measures(cell.network(), state);
     return Damage{double(broken(state)) / n, double(state.n_shear_breaks) / n,

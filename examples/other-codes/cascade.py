@@ -6,6 +6,7 @@ breaks: the cascade of `feldspar multiscale` (docs/theory.md, section 10).
 """
 
 import sys
+import tempfile
 from pathlib import Path
 from typing import Protocol
 
@@ -55,12 +56,12 @@ def equilibrium(code: Code, volumes: feldspar.Volumes, token: int) -> numpy.ndar
     raise RuntimeError("no equilibrium")
 
 
-def curve_of(code: Code) -> Curve:
+def curve_of(code: Code, n_rows: int = n_steps) -> Curve:
     """Pulls the sample apart."""
     volumes = feldspar.Volumes(feldspar.Specimen(rock, seed=int(rock["Seeds/Seeds"])), n=code.n_points)
     token, n_broken = 0, 0
     rows: Curve = []
-    for row in range(1, n_steps + 1):
+    for row in range(1, n_rows + 1):
         code.pull(row * step * height)
         while True:
             stresses = equilibrium(code, volumes, token)
@@ -74,7 +75,8 @@ def curve_of(code: Code) -> Curve:
 
 def of_feldspar() -> Curve:
     """Returns the curve of `feldspar multiscale sample.prm`."""
-    table = feldspar.multiscale(rock).curve("direct_tension_seed_1")
+    with tempfile.TemporaryDirectory() as folder:
+        table = feldspar.multiscale(rock, Path(folder) / "out").curves["direct_tension_seed_1"]
     cracks = table["n_tension_cracks"] + table["n_shear_cracks"]
     return [row for row in zip(table["axial_strain"], table["axial_stress_Pa"], cracks) if row[0] > 0.0]
 
@@ -85,7 +87,7 @@ def compare(name: str, rows: Curve) -> None:
     stiffness = {one: rows[0][1] / rows[0][0] for one, rows in curves.items()}
     peak = {one: max(stress for _, stress, _ in rows) for one, rows in curves.items()}
     for one in curves:
-        print(f"{one:20} E {stiffness[one] / 1e9:.6f} GPa, peak {peak[one] / 1e6:.4f} MPa")
+        print(f"{one:20} E {stiffness[one] / 1e9:.6f} GPa, peak {peak[one] / 1e6:.4f} MPa, broken {curves[one][-1][2]}")
 
     def apart(values: dict[str, float]) -> float:
         return abs(values[name] / values["feldspar multiscale"] - 1.0)

@@ -313,9 +313,9 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("stages.csv", "axial_strain\n0.01\n");
   folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n");
   const Input input = read_input(folder.write("everything.prm", everything));
-  // Other joint laws exclude flat joints, and clumps mineral grains; they have tests of their own.
+  // Other joint laws exclude flat joints, clumps mineral grains, and Sample/Rocks a weak seed; they have tests of their own.
   EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size() +
-              entry_names("Softening flat joint").size() + entry_names("Clumps").size(),
+              entry_names("Softening flat joint").size() + entry_names("Clumps").size() + 1,
             parameter_table().size());
 
   EXPECT_EQ(input.calibration.targets, (std::vector<std::string>{"tensile_strength", "youngs_modulus"}));
