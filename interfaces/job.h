@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-/// What interfaces to different codes have in common beside the points.
+/// The input of a material and the state variables of its points, for interfaces to all codes.
 namespace feldspar::interfaces
 {
 /// The input of a material in the working folder; names in the input of a job may have lost their case. Throws Error.

@@ -29,7 +29,7 @@ struct StateView
   double* external_state_variables;
 };
 
-/// What the interface hands over for a point.
+/// The data of a point, as a code hands them over.
 struct BehaviourDataView
 {
   char* error_message; ///< null, or of 512 characters
@@ -106,7 +106,7 @@ extern "C"
       }
   }
 
-  // What a loader asks of the behaviour.
+  // The description of the behaviour, which a loader reads.
   FELDSPAR_PUBLIC extern const unsigned short Feldspar_mfront_mkt = 1; // a behaviour
   FELDSPAR_PUBLIC extern const unsigned short Feldspar_api_version = 1;
   FELDSPAR_PUBLIC extern const char* const Feldspar_mfront_ept = "Feldspar";

@@ -17,7 +17,7 @@ std::uint64_t mixed(std::uint64_t x)
 
 std::uint64_t number_of(const PointName name) { return (std::uint64_t(name.element) << 32U) | name.point; }
 
-/// Of version, input and mode: what a log must have in common with its job.
+/// Returns a number of version, input and mode, which a log and its job have in common.
 std::uint64_t identity_of(const Input& input, const Breaking breaking)
 {
   std::uint64_t identity = breaking == Breaking::lagged ? 1 : 2;

@@ -18,7 +18,7 @@
 /// its state. docs/material.md.
 namespace feldspar::interfaces
 {
-/// When bonds break.
+/// Moment at which bonds break.
 enum class Breaking
 {
   lagged,        ///< at the strain that was accepted, when the next increment begins

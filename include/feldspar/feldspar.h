@@ -214,7 +214,7 @@ private:
   std::shared_ptr<TrialState> of;
 };
 
-/// What broke in a representative volume; the fields of a point in a sample.
+/// The damage of a representative volume: the fields of a point in a sample.
 struct Damage
 {
   double broken_share = 0.0;             ///< of all segments

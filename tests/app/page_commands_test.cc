@@ -90,6 +90,9 @@ sed -n '/^```text core.csv/,/^```$/p' docs/laboratory-data.md | grep -v '^```' >
   {"examples/first-run/README.md", {"", settings_of_a_small_rock}},
   {"examples/multiscale-beishan/README.md",
    {"", {{"Tests/List = direct_tension", "Tests/Stop strain = 2e-5", "Seeds/Seeds = 1"}}}},
+  {"examples/other-codes/README.md",
+   {"printf 'axial_strain [-],axial_stress [Pa]\\n0,0\\n1e-5,7e5\\n2e-5,14e5\\n' > calculix.csv\n",
+    {{"Tests/Stop strain = 2e-5"}}}},
 };
 
 /// Scripts of the tree that call Feldspar, or that make their tables of committed results.

@@ -71,7 +71,7 @@ protected:
   TemporaryFolder folder;
 };
 
-// By each iteration the volume takes the way that the library takes along the same strains: from state to state it breaks at
+// The volume follows the library along the same strains: with breaks at each iteration, it breaks at
 // the strain of the increment.
 TEST_F(Umat, TakesTheWayOfTheLibrary)
 {

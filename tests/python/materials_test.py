@@ -45,7 +45,7 @@ class Materials(unittest.TestCase):
         self.assertLess(stress[0][1], kept[0][1])
 
     def test_a_micro_manager_couples_implicitly(self) -> None:
-        # It steps forward, finds that the coupling has not converged, goes back, and steps again.
+        # The coupling steps forward, finds that the coupling has not converged, goes back, and steps again.
         before = os.getcwd()
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)

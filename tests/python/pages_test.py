@@ -44,6 +44,10 @@ class Pages(unittest.TestCase):
         self.assertGreater(names["response"].n_breaks, 0)
         self.assertEqual(names["token"], 2)
 
+    def test_material(self):
+        names = self.run_blocks("docs/material.md", {})
+        self.assertEqual(names["tangents"].shape, (32, 3, 3))
+
 
 if __name__ == "__main__":
     unittest.main()
