@@ -34,7 +34,7 @@ def curve_figure(curves: Mapping[str, pandas.DataFrame], axes: Union[Axes, None]
     return axes
 
 
-# By the numbers of gnuplot.
+# Markers of the numbers that gnuplot gives them.
 _marks = {1: "+", 4: "s", 5: "s", 6: "o", 7: "o", 8: "^", 12: "D", 13: "D"}
 _open_marks = (4, 6, 8, 12)
 _dashes = {1: "-", 2: "--", 3: ":", 4: "-.", 5: (0, (6, 3, 1, 3, 1, 3))}
