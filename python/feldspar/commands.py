@@ -193,7 +193,7 @@ def _run(
 def _call(arguments: list[str]) -> str:
     """Runs the program and returns what it prints. Raises Error with its line where it ends by one. Ctrl-C is handed on to
     it, so that it keeps what there is."""
-    beside = Path(__file__).parents[4] / "bin" / "feldspar"
+    beside = Path(__file__).parent / "../../../../bin/feldspar"
     program = os.environ.get("FELDSPAR_PROGRAM") or shutil.which("feldspar") or str(beside)
     try:
         # In a session of its own, a terminal's Ctrl-C reaches it once, from here.
