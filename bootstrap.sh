@@ -19,7 +19,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 build_packages=(
   g++ cmake ninja-build git ca-certificates
-  libeigen3-dev libtbb-dev libfmt-dev libhdf5-openmpi-dev
+  libeigen3-dev libtbb-dev libfmt-dev libhdf5-openmpi-dev libhdf5-dev
   libdeal.ii-dev petsc-dev
   libceres-dev libopenturns-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libexpat1-dev libkainjow-mustache-dev
   gnuplot-nox fonts-dejavu-core
@@ -189,7 +189,7 @@ package()
   build package-avx512 "$joined_units"
   say "packing"
   (cd build/package &&
-    cpack -G DEB -D "CPACK_INSTALL_CMAKE_PROJECTS=$PWD;feldspar;ALL;/;$PWD/../package-avx512;feldspar;programs;/")
+    cpack -G DEB -D "CPACK_INSTALL_CMAKE_PROJECTS=$PWD;feldspar;ALL;/;$PWD/../package-avx512;feldspar;code;/")
   ls "$PWD"/build/package/*.deb
 }
 

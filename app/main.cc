@@ -345,7 +345,8 @@ int after_output(const int code)
 }
 } // namespace
 
-int main(const int argc, const char* const* argv)
+/// The program, for app/program.cc.
+extern "C" int feldspar_main(const int argc, const char* const* argv)
 {
   open_standard_streams();
   // A limit on the size of files and a reader that has gone come as errors of the write, which can be said.

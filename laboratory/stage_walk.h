@@ -85,6 +85,11 @@ public:
     archive.value("stage_strain", start.axial_strain);
     archive.value("stage_stress", start.axial_stress);
     archive.value("stage_lateral_strain", start.lateral_strain);
+    bool left_before = pressure_before.has_value(); // the one before was left where it stood
+    transfer_flag(archive, "stage_begins_at_pressure", left_before);
+    double pressure = pressure_before.value_or(0.0);
+    archive.value("stage_pressure_before", pressure);
+    pressure_before = left_before ? std::optional(pressure) : std::nullopt;
     archive.value("stage_widening_let_be", widening_let_be);
     archive.value("stage_highest_stress", highest_stress);
     archive.value("stage_strain_at_highest", strain_at_highest);

@@ -1,6 +1,9 @@
 #include "app/programme/checks.h"
+#include "base/checksum/fingerprint.h"
+#include "base/system/hdf5_archive.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
+#include "feldspar_version.h"
 #include "laboratory/curve.h"
 #include "laboratory/loading_stages.h"
 #include "library/states.h"
@@ -10,8 +13,11 @@
 #include "results/folder/table_columns.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <mutex>
 
@@ -71,15 +77,36 @@ void check_stage(const LoadingStage& stage, const LoadingStage& before)
 }
 } // namespace
 
+namespace
+{
+/// A number that two tests hardly share: entries, grains and joints.
+std::uint64_t fingerprint_of(const Specimen& specimen, const Input& input)
+{
+  Fingerprint print;
+  for (const auto& [entry, value] : input.given())
+    print.add(fmt::format("{} = {}\n", entry, value));
+  for (const Table& table : {specimen.grains(), specimen.joints()})
+    for (const v1::Column& column : table)
+      for (const double value : column.values)
+        print.add(std::bit_cast<std::uint64_t>(value));
+  return print.value();
+}
+} // namespace
+
 class TestState
 {
 public:
   template <int dim>
   using Running = std::unique_ptr<LabTest<dim>>;
 
-  TestState(const Specimen& specimen, feldspar::Input wanted, const TestCase& wanted_case)
+  TestState(const Specimen& specimen, const Input& given, feldspar::Input wanted, const TestCase& wanted_case,
+            const double pressure, std::vector<Stage> own_stages = {})
     : input(std::move(wanted))
     , test(wanted_case)
+    , kind(test.kind.name)
+    , pressure_at_start(pressure)
+    , stages(std::move(own_stages))
+    , whose(fingerprint_of(specimen, given))
   {
     std::visit(
       [&]<int dim>(const feldspar::Specimen<dim>& body) {
@@ -125,9 +152,33 @@ public:
 
   double sign() const { return test.kind.sign; }
 
+  /// The text that must be equal in a file from which the test is read.
+  std::string identity() const
+  {
+    nlohmann::ordered_json all{{"kind", kind},
+                               {"confining_pressure", pressure_at_start},
+                               {"stages", nlohmann::ordered_json::array()},
+                               {"whose", whose},
+                               {"version", feldspar::version}};
+    for (const Stage& stage : stages)
+      {
+        nlohmann::ordered_json numbers{stage.confining_pressure};
+        for (const auto member : optional_numbers)
+          numbers.push_back(stage.*member ? nlohmann::ordered_json(*(stage.*member)) : nlohmann::ordered_json());
+        all["stages"].push_back(numbers);
+      }
+    return all.dump();
+  }
+
+  static constexpr std::array optional_numbers{&Stage::axial_strain, &Stage::axial_stress, &Stage::lateral_strain,
+                                               &Stage::duration, &Stage::strain_rate};
+
   feldspar::Input input;
   TestCase test;
-  std::optional<LoadingStage> last_stage; ///< of a test that follows stages
+  std::string kind;
+  double pressure_at_start; ///< confinement, compression positive [Pa]
+  std::vector<Stage> stages;
+  std::uint64_t whose;
 
 private:
   std::variant<Running<2>, Running<3>> running;
@@ -160,7 +211,8 @@ feldspar::Input input_of_test(const Input& input, const Specimen& specimen, cons
 Test::Test(const Specimen& specimen, const Input& input, const std::string_view kind, const double confining_pressure)
   : of(guarded([&] {
     const TestCase test{kind_of(kind), confining_pressure};
-    return std::make_unique<TestState>(specimen, input_of_test(input, specimen, test.kind, confining_pressure), test);
+    return std::make_unique<TestState>(specimen, input, input_of_test(input, specimen, test.kind, confining_pressure),
+                                       test, confining_pressure);
   }))
 {
 }
@@ -174,9 +226,8 @@ Test::Test(const Specimen& specimen, const Input& input, const double confining_
     feldspar::Input wanted = input_of_test(input, specimen, own_loading.kind, 0.0);
     wanted.tests.of<LoadingTable>().stages = {stage};
     wanted.tests.of<LoadingTable>().pressure_at_start = confining_pressure;
-    auto state = std::make_unique<TestState>(specimen, std::move(wanted), TestCase{own_loading.kind, 0.0});
-    state->last_stage = stage;
-    return state;
+    return std::make_unique<TestState>(specimen, input, std::move(wanted), TestCase{own_loading.kind, 0.0},
+                                       confining_pressure, std::vector{first});
   }))
 {
 }
@@ -188,13 +239,53 @@ Test::~Test() = default;
 void Test::follow(const Stage& stage)
 {
   of->changing([&](auto& one) {
-    if (!of->last_stage)
+    if (of->stages.empty())
       throw InputError(
         fmt::format("{} follows no stages; begin a test of your own with its first stage", of->test.kind.name));
     const LoadingStage next = stage_of(stage);
-    check_stage(next, *of->last_stage);
+    check_stage(next, stage_of(of->stages.back()));
     one.follow(next);
-    of->last_stage = next;
+    of->stages.push_back(stage);
+  });
+}
+
+const std::string& Test::kind() const { return of->kind; }
+
+const std::vector<Stage>& Test::stages() const { return of->stages; }
+
+void Test::save(const std::string& file) const
+{
+  of->alone([&](auto& one) {
+    if (one.curve().empty())
+      throw InputError("the test has no row yet; run it before it is saved");
+    one.write_checkpoint(file, of->identity());
+  });
+}
+
+Test Test::load(const Specimen& specimen, const Input& input, const std::string& file)
+{
+  return guarded([&] {
+    std::string identity;
+    read_hdf5(file, "a saved test", [&](Hdf5Reader& stored) { stored.text("identity", identity); });
+    const auto saved = nlohmann::json::parse(identity, nullptr, false);
+    if (!saved.is_object() || !saved.contains("stages"))
+      throw InputError(fmt::format("{}: no saved test, but a checkpoint of the command", file));
+    const double pressure = saved["confining_pressure"];
+    std::vector<Stage> stages;
+    for (const auto& numbers : saved["stages"])
+      {
+        Stage& stage = stages.emplace_back();
+        stage.confining_pressure = numbers[0];
+        for (std::size_t k = 0; k < TestState::optional_numbers.size(); ++k)
+          if (!numbers[k + 1].is_null())
+            stage.*TestState::optional_numbers[k] = numbers[k + 1].get<double>();
+      }
+    Test test = stages.empty() ? Test(specimen, input, std::string(saved["kind"]), pressure)
+                               : Test(specimen, input, pressure, stages.front());
+    for (std::size_t k = 1; k < stages.size(); ++k)
+      test.follow(stages[k]);
+    test.of->changing([&](auto& one) { one.read_checkpoint(file, test.of->identity()); });
+    return test;
   });
 }
 

@@ -166,7 +166,8 @@ PYBIND11_MODULE(_core, module)
          }),
          py::kw_only(), py::arg("axial_strain") = py::none(), py::arg("axial_stress") = py::none(),
          py::arg("lateral_strain") = py::none(), py::arg("duration") = py::none(), py::arg("confining_pressure") = 0.0,
-         py::arg("strain_rate") = py::none());
+         py::arg("strain_rate") = py::none())
+    .def_readonly("confining_pressure", &Stage::confining_pressure);
 
   py::class_<Test>(module, "Test")
     .def(py::init<const Specimen&, const Input&, std::string_view, double>(), WithoutInterpreter(), py::arg("specimen"),
@@ -174,6 +175,10 @@ PYBIND11_MODULE(_core, module)
     .def(py::init<const Specimen&, const Input&, double, const Stage&>(), WithoutInterpreter(), py::arg("specimen"),
          py::arg("input"), py::arg("confining_pressure"), py::arg("first"))
     .def("follow", &Test::follow, WithoutInterpreter(), py::arg("stage"))
+    .def_property_readonly("kind", &Test::kind)
+    .def_property_readonly("stages", &Test::stages)
+    .def("save", &Test::save, WithoutInterpreter(), py::arg("file"))
+    .def_static("load", &Test::load, WithoutInterpreter(), py::arg("specimen"), py::arg("input"), py::arg("file"))
     .def(
       "advance", [](Test& test) { return test.advance(signals()); }, WithoutInterpreter())
     .def_property_readonly("has_ended", [](const Test& test) { return waiting([&] { return test.has_ended(); }); })

@@ -174,6 +174,14 @@ public:
 
   /// Appends a stage, which begins where the test stands. Of a test of one's own only.
   void follow(const Stage& stage);
+  const std::string& kind() const;
+  /// All stages so far, of a test of one's own.
+  const std::vector<Stage>& stages() const;
+
+  /// Writes the state of the test, with which load() goes on to the same bits.
+  void save(const std::string& file) const;
+  /// The test that save() wrote, by the same version, of the same specimen and the same entries. Others are refused.
+  static Test load(const Specimen& specimen, const Input& input, const std::string& file);
 
   /// Runs to the next row of the curve. Returns false once the test, or its last stage, has ended. After Stopped the next
   /// call goes on; a seating cannot be gone on with.

@@ -81,6 +81,17 @@ class Specimen:
         """Returns a press of your own protocol: platens, and side walls that hold the confining pressure [Pa]."""
         return Press(self, in_si(confinement, "stress"))
 
+    def resume(self, file: Union[str, "os.PathLike[str]"]) -> "Test":
+        """Returns the test, or the press, that save() wrote. It goes on to the same bits.
+
+        Raises Error where the file is of another specimen, other entries or another version."""
+        core = _core.Test.load(self.core, self.input.core, os.fspath(file))
+        if not core.stages:
+            return Test(core, core.kind)
+        press = Press(self, core.stages[-1].confining_pressure)
+        press._begin(core)
+        return press
+
     def figure(self, axes: Union["Axes", None] = None) -> "Axes":
         """Draws the grains of a specimen in the plane."""
         from feldspar.figures import grains_figure
@@ -112,6 +123,10 @@ class Test:
     def advance(self) -> bool:
         """Runs to the next row of the curve. Returns False once the test has ended."""
         return self.core.advance()
+
+    def save(self, file: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the state of the test, for Specimen.resume(); `each` may do so on the way."""
+        self.core.save(os.fspath(file))
 
     def __copy__(self) -> NoReturn:
         raise _core.Error("a running test cannot be copied; make another one of the specimen")
@@ -231,12 +246,15 @@ class Press(Test):
         """True once the last stage has ended."""
         return self._test.has_ended if self._test else False
 
+    def _begin(self, test: _core.Test) -> None:
+        self._test = test
+        self._columns = test.columns()
+
     def _load(self, each: Each, confinement: Union[Quantity, None], **stage: Union[float, None]) -> Self:
         pressure = self._confinement if confinement is None else in_si(confinement, "stress")
         target = _core.Stage(confining_pressure=pressure, **stage)
         if self._test is None:
-            self._test = _core.Test(self._specimen.core, self._specimen.input.core, self._confinement, target)
-            self._columns = self._test.columns()
+            self._begin(_core.Test(self._specimen.core, self._specimen.input.core, self._confinement, target))
         else:
             self._test.follow(target)
         self._confinement = pressure

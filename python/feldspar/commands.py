@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -46,7 +47,7 @@ class Run:
     @property
     def curves(self) -> dict[str, pandas.DataFrame]:
         """The curve of each test or path."""
-        return {file.stem: pandas.read_csv(file) for file in sorted(self.folder.glob("curves/*.csv"))}
+        return self._tables("curves")
 
     @property
     def cracks(self) -> pandas.DataFrame:
@@ -56,17 +57,29 @@ class Run:
     @property
     def grains(self) -> dict[str, pandas.DataFrame]:
         """The grains of each test on grains, before and after."""
-        return {file.stem: pandas.read_csv(file) for file in sorted(self.folder.glob("grains/*.csv"))}
+        return self._tables("grains")
 
     @property
     def page(self) -> Path:
         """The report, report.html."""
         return self.folder / "report.html"
 
-    def figure(self, axes: Union["Axes", None] = None) -> "Axes":
-        """Draws stress over strain of all tests."""
-        from feldspar.figures import curve_figure
+    @property
+    def charts(self) -> dict[str, dict[str, Any]]:
+        """The data of the charts of the page, with five digits, by the names that their pictures have in figures/."""
+        chart = re.compile(r'class="live-data">({"what":"chart".*?)</script>.*?href="figures/(.*?)\.svg"', re.DOTALL)
+        figures = self._file("report.html").read_text(encoding="utf-8").split("</figure>")
+        return {found[2]: json.loads(found[1]) for found in map(chart.search, figures) if found}
 
+    def figure(self, name: Union[str, None] = None, axes: Union["Axes", None] = None) -> "Axes":
+        """Draws a figure of the page, one of `charts`; by default stress over strain of all tests."""
+        from feldspar.figures import chart_figure, curve_figure
+
+        if name is not None:
+            charts = self.charts
+            if name not in charts:
+                raise _core.Error(f"{name} is no chart of {self.page}; there are {', '.join(charts) or 'none'}")
+            return chart_figure(charts[name], axes)
         tests = {name: curve for name, curve in self.curves.items() if "axial_strain" in curve}
         if not tests:
             raise _core.Error(f"{self.folder}: has no curve of a test; `curves` has what there is")
@@ -77,7 +90,10 @@ class Run:
         return content
 
     def _csv(self, name: str) -> pandas.DataFrame:
-        return pandas.read_csv(self._file(name))
+        return _read_csv(self._file(name))
+
+    def _tables(self, folder: str) -> dict[str, pandas.DataFrame]:
+        return {file.stem: _read_csv(file) for file in sorted(self.folder.glob(f"{folder}/*.csv"))}
 
     def _file(self, name: str) -> Path:
         file = self.folder / name
@@ -87,6 +103,10 @@ class Run:
 
     def __repr__(self) -> str:
         return f"Run({str(self.folder)!r})"
+
+
+def _read_csv(file: Path) -> pandas.DataFrame:
+    return pandas.read_csv(file, float_precision="round_trip")  # to the bits that were written
 
 
 def open(folder: PathLike) -> Run:
@@ -132,11 +152,15 @@ def calibrate(
     return _run("calibrate", input, output, force, resume, threads)
 
 
-def report(*folders: Union[Run, PathLike], output: Union[PathLike, None] = None) -> Path:
-    """Makes the report of one run anew, or compares several, in the folder `output` or a new one. Returns its page."""
+def report(*folders: Union[Run, PathLike], output: Union[PathLike, None] = None, film: bool = False) -> Path:
+    """Makes the report of one run anew, or compares several, in the folder `output` or a new one. Returns its page.
+
+    `film`: the cracking of the tests as film.webp beside the page, too. Raises Error where there is no Chromium to make it.
+    """
     names = [os.fspath(one.folder if isinstance(one, Run) else one) for one in folders]
     where = [] if output is None else ["--output", os.fspath(output)]
-    return Path(_call(["report", *names, *where]).splitlines()[-1])
+    options = ["--quiet"] + (["--film"] if film else [])
+    return Path(_call(["report", *names, *where, *options]).splitlines()[0])
 
 
 def _run(
@@ -169,7 +193,7 @@ def _run(
 def _call(arguments: list[str]) -> str:
     """Runs the program and returns what it prints. Raises Error with its line where it ends by one. Ctrl-C is handed on to
     it, so that it keeps what there is."""
-    beside = Path(__file__).parents[4] / "bin" / "feldspar"
+    beside = Path(__file__).parent / "../../../../bin/feldspar"
     program = os.environ.get("FELDSPAR_PROGRAM") or shutil.which("feldspar") or str(beside)
     try:
         # In a session of its own, a terminal's Ctrl-C reaches it once, from here.

@@ -1,7 +1,8 @@
 """Pictures of curves and bodies, by Matplotlib."""
 
+import itertools
 from collections.abc import Mapping
-from typing import Union
+from typing import Any, Union
 
 import matplotlib.pyplot
 import numpy
@@ -30,6 +31,53 @@ def curve_figure(curves: Mapping[str, pandas.DataFrame], axes: Union[Axes, None]
             1e3 * curve["axial_strain"], curve["n_tension_cracks"] + curve["n_shear_cracks"], color="0.6", linestyle="--"
         )
         cracks.set_ylabel("broken segments")
+    return axes
+
+
+# Markers of the numbers that gnuplot gives them.
+_marks = {1: "+", 4: "s", 5: "s", 6: "o", 7: "o", 8: "^", 12: "D", 13: "D"}
+_open_marks = (4, 6, 8, 12)
+_dashes = {1: "-", 2: "--", 3: ":", 4: "-.", 5: (0, (6, 3, 1, 3, 1, 3))}
+
+
+def chart_figure(chart: Mapping[str, Any], axes: Union[Axes, None] = None) -> Axes:
+    """Draws a chart of a page, one of Run.charts."""
+    axes = axes if axes is not None else matplotlib.pyplot.subplots()[1]
+    right = axes.twinx() if chart["right"] else axes
+    for line in chart["lines"]:
+        panel = right if line["right"] else axes
+        colour, kind = line["colour"], line["kind"]
+        label = "_" if line["goes_with"] else line["label"]  # what begins so is not in the legend
+        if kind == "area":
+            for is_gap, corners in itertools.groupby(line["points"], lambda point: point is None):
+                if not is_gap:
+                    panel.fill(*zip(*corners), color=colour, alpha=0.2, linewidth=0.0, label="_")
+            continue
+        points = numpy.array([point or (numpy.nan, numpy.nan) for point in line["points"]], dtype=float)
+        panel.plot(
+            *points.T,
+            color=colour,
+            label=label,
+            linewidth=0.75 * line["width"],  # pixels of the page
+            linestyle="" if kind == "marks" else _dashes.get(line["dashes"], "-"),
+            drawstyle="steps-mid" if kind == "steps" else "default",
+            marker=_marks[line["mark"]] if kind == "marks" else "",
+            markerfacecolor="white" if line["mark"] in _open_marks else colour,
+        )
+    axes.set_xlabel(chart["x"])
+    axes.set_ylabel(chart["y"])
+    if right is not axes:
+        right.set_ylabel(chart["right"])
+    if chart["logarithmic"]:
+        axes.set_xscale("log")
+    if chart["equal"]:
+        axes.set_aspect("equal")
+    if "part" in chart:
+        axes.axis(tuple(chart["part"]))
+    elif chart["from_zero"]:
+        axes.set_ylim(bottom=0.0)
+    entries = [one.get_legend_handles_labels() for one in {axes: None, right: None}]
+    axes.legend(sum((handles for handles, _ in entries), []), sum((labels for _, labels in entries), []))
     return axes
 
 

@@ -16,6 +16,7 @@ fail()
   printf '%s\n' "$*" >&2
   exit 1
 }
+if ldd "$here"/prefix/lib/libfeldspar.so | grep -q libmpi; then fail "libfeldspar.so links MPI, of which a program may have its own"; fi
 "$here/build/uniaxial_compression" >"$here/uniaxial.csv"
 grep -Eq '^# compressive strength [0-9]+\.[0-9]+ MPa$' "$here/uniaxial.csv" || fail "no strength: $(tail -1 "$here/uniaxial.csv")"
 

@@ -288,6 +288,27 @@ class Presses(unittest.TestCase):
         press.strain_to(6e-4, confinement="15 MPa", each=lambda test: True)  # one row
         self.assertAlmostEqual(press.last("lateral_stress_Pa"), reached, delta=1.5e6)
 
+    def test_are_saved_and_resumed(self):
+        """A press that is left in a stage, and a test within its run: both go on to the same bits."""
+        specimen = feldspar.Specimen(ROCK)
+        press = specimen.press(confinement="5 MPa")
+        press.strain_to(1e-3, confinement="9 MPa", each=lambda test: test.strain > 5e-4).strain_to(8e-4)
+        test = specimen.test("uniaxial_compression").run(until=1e-3)
+        with tempfile.TemporaryDirectory() as folder:
+            further = lambda press: press.stress_to("20 MPa").strain_to(2e-3)
+            for one, go_on in ((press, further), (test, lambda test: test.run())):
+                file = Path(folder) / f"{one.kind}.h5"
+                one.save(file)
+                again = feldspar.Specimen(ROCK).resume(file)
+                self.assertEqual((type(again), again.kind, again.n_rows), (type(one), one.kind, one.n_rows))
+                pandas.testing.assert_frame_equal(go_on(again).curve, go_on(one).curve, check_exact=True)
+                pandas.testing.assert_frame_equal(again.cracks, one.cracks, check_exact=True)
+                self.assertEqual(again.summary.get("stages"), one.summary.get("stages"))
+            self.assertIn("of another test", error_of(lambda: feldspar.Specimen(ROCK, seed=2).resume(file)))
+            self.assertIn("no row yet", error_of(lambda: specimen.test("direct_tension").save(file)))
+            specimen.save(file)
+            self.assertIn("a saved test", error_of(lambda: specimen.resume(file)))
+
     def test_hold_at_rest(self):
         """A body without load has energies of round-off alone, which are no fault."""
         press = feldspar.Specimen(ROCK).press().hold("0.1 ms")

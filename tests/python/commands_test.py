@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import feldspar
 
@@ -41,9 +42,33 @@ class Commands(unittest.TestCase):
             self.assertEqual(len(run.tests), 4)
             self.assertEqual(set(run.curves), set(run.grains))
             self.assertTrue(run.page.is_file())
-            page = feldspar.report(run, output=folder / "report")
+            page = feldspar.report(run, output=folder / "report", film=True)
             self.assertTrue(page.is_file())
+            film = page.with_name("film.webp").read_bytes()
+            self.assertEqual((film[:4], film.count(b"ANMF")), (b"RIFF", 38))  # 32 steps, the last of which stands for a while
             self.assertEqual(run.figure().get_ylabel(), "axial stress [MPa]")
+
+    def test_draw_the_charts_of_the_page(self):
+        with tempfile.TemporaryDirectory() as name:
+            run = feldspar.lab(feldspar.Input(ENTRIES), Path(name) / "run")
+            for chart in run.charts:
+                run.figure(chart)
+            axes = run.figure("uniaxial_compression_stress")
+            self.assertEqual(axes.get_ylabel(), "axial stress [MPa], compression positive")
+            highest = {round(max(line.get_ydata()), 1) for line in axes.lines if len(line.get_ydata())}
+            for curve in run.curves.values():  # thin lines are single tests, to five digits
+                if curve["axial_stress_Pa"].max() > 50e6:
+                    self.assertIn(round(curve["axial_stress_Pa"].max() / 1e6, 1), highest)
+            with self.assertRaisesRegex(feldspar.Error, "there are .*uniaxial_compression_stress"):
+                run.figure("zzz")
+
+    def test_make_no_film_without_a_browser(self):
+        with tempfile.TemporaryDirectory() as name:
+            run = feldspar.lab({**ENTRIES, "Seeds/Seeds": 1, "Tests/List": "direct_tension"}, Path(name) / "run")
+            with mock.patch.dict(os.environ, {"PATH": name}):
+                with self.assertRaisesRegex(feldspar.Error, "^feldspar: --film: Chromium, .* is not installed"):
+                    feldspar.report(run, output=Path(name) / "report", film=True)
+            self.assertFalse((Path(name) / "report").exists())
 
     def test_change_entries_of_a_file(self):
         with tempfile.TemporaryDirectory() as name:

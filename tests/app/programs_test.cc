@@ -1,4 +1,4 @@
-// The program of a package for several processors runs the one that fits; and what each program loads.
+// Libraries of the programs, a program that goes on as another, an installation.
 
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -20,21 +18,6 @@ namespace feldspar::tests
 namespace
 {
 namespace fs = std::filesystem;
-
-/// Returns whether the kernel says that this processor has these flags.
-bool processor_has(const std::string& flags)
-{
-  std::ifstream info("/proc/cpuinfo");
-  std::string line;
-  while (std::getline(info, line) && !line.starts_with("flags"))
-    ;
-  std::istringstream words(line), wanted(flags);
-  const std::set<std::string> known{std::istream_iterator<std::string>(words), {}};
-  for (std::string flag; wanted >> flag;)
-    if (!known.contains(flag))
-      return false;
-  return true;
-}
 
 TEST(Programs, LoadFiniteElementsAndStatisticsWhereTheyAreUsedOnly)
 {
@@ -82,12 +65,13 @@ void expect_whole_library_folders(const fs::path& program)
   const auto read = run_command(folder.path(), fmt::format("LC_ALL=C readelf -dW '{}'", program.string()));
   EXPECT_NE(read.output.find("(NEEDED)"), std::string::npos) << program << read.error;
   for (const std::string& one : library_folders(read.output))
-    EXPECT_TRUE(one.starts_with('/')) << program << " looks for libraries in \"" << one << '"';
+    EXPECT_TRUE(one.starts_with('/') || one.starts_with("$ORIGIN/"))
+      << program << " looks for libraries in \"" << one << '"';
 }
 
 TEST(Programs, LookForLibrariesInNoFolderThatDependsOnTheCurrentOne)
 {
-  for (const char* const program : {"feldspar", "feldspar-calibrate", "feldspar-multiscale", "feldspar-launcher"})
+  for (const char* const program : {"feldspar", "feldspar-calibrate", "feldspar-multiscale"})
     expect_whole_library_folders(fs::path(FELDSPAR_COMMAND).replace_filename(program));
   // Path from before: CMake ended it with an empty element.
   EXPECT_EQ(library_folders(" 0x000000000000001d (RUNPATH)            Library runpath: [/usr/lib:]\n"),
@@ -99,25 +83,21 @@ TEST(Programs, LookForLibrariesInNoFolderThatDependsOnTheCurrentOne)
 TEST(Programs, GoOnAsAnotherOfTheSameVersionOrSayWhatIsMissing)
 {
   const TemporaryFolder folder;
-  const fs::path programs = fs::path(FELDSPAR_COMMAND).parent_path();
-  fs::copy_file(FELDSPAR_COMMAND, folder.path() / "feldspar");
+  const fs::path programs = folder.path() / "bin";
+  fs::create_directory(programs);
+  fs::create_directory_symlink(FELDSPAR_BUILD_DIR "/lib", folder.path() / "lib");
+  fs::copy_file(FELDSPAR_COMMAND, programs / "feldspar");
   std::ofstream(folder.path() / "rock.prm") << "subsection Specimen\n  set Width = 20 mm\nend\n";
   for (const auto& [words, program] : {std::pair("multiscale rock.prm", "feldspar-multiscale"),
                                        {"parameters --check rock.prm", "feldspar-multiscale"},
                                        {"calibrate rock.prm", "feldspar-calibrate"}})
     {
-      const auto alone = run_command(folder.path(), fmt::format("./feldspar {}", words));
+      const auto alone = run_command(folder.path(), fmt::format("bin/feldspar {}", words));
       EXPECT_EQ(alone.exit_code, 2);
       EXPECT_NE(alone.error.find(fmt::format("{}: cannot be run", program)), std::string::npos) << alone.error;
     }
 
-  // Files as an installed package has them: the launcher, and the programs of a level.
-  const fs::path level = folder.path() / "libexec/feldspar/x86-64-v3";
-  fs::create_directories(level);
-  fs::create_directory(folder.path() / "bin");
-  fs::copy_file(FELDSPAR_LAUNCHER, folder.path() / "bin/feldspar");
-  for (const char* const program : {"feldspar", "feldspar-multiscale"})
-    fs::copy_file(programs / program, level / program);
+  fs::copy_file(fs::path(FELDSPAR_COMMAND).replace_filename("feldspar-multiscale"), programs / "feldspar-multiscale");
   const std::string check = "bin/feldspar parameters --check rock.prm --for lab";
   const auto installed = run_command(folder.path(), check);
   EXPECT_EQ(installed.exit_code, 0) << installed.error;
@@ -128,65 +108,25 @@ TEST(Programs, GoOnAsAnotherOfTheSameVersionOrSayWhatIsMissing)
     << of_another.error;
 }
 
-class Package
+TEST(Programs, TakeTheCodeOfTheHighestLevelThatTheProcessorHas)
 {
-public:
-  Package()
-  {
-    fs::create_directory(folder.path() / "bin");
-    fs::copy_file(FELDSPAR_LAUNCHER, folder.path() / "bin/feldspar");
-  }
-
-  /// A program that says its level and what it was given.
-  void add(const std::string& level) const
-  {
-    const fs::path place = folder.path() / "libexec/feldspar" / level;
-    fs::create_directories(place);
-    std::ofstream(place / "feldspar") << "#!/bin/sh\necho " << level << " \"$@\"\nexit 7\n";
-    fs::permissions(place / "feldspar", fs::perms::owner_all);
-  }
-
-  Outcome run() const { return run_command(folder.path(), "bin/feldspar lab 'a rock.prm'"); }
-
-private:
-  TemporaryFolder folder;
-};
-
-TEST(Launcher, RunsTheProgramOfTheHighestLevelThatTheProcessorHas)
-{
-  const bool avx2 = processor_has("avx2 bmi1 bmi2 fma");
-  const bool avx512 = avx2 && processor_has("avx512f avx512bw avx512cd avx512dq avx512vl");
-  const Package package;
-  const auto without = package.run();
-  EXPECT_EQ(without.exit_code, 2);
-  EXPECT_NE(without.error.find("no program for this processor"), std::string::npos) << without.error;
-
-  package.add("x86-64-v4");
-  if (!avx512)
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "bin");
+  fs::copy_file(FELDSPAR_COMMAND, folder.path() / "bin/feldspar");
+  const fs::path place = folder.path() / "lib/feldspar";
+  for (const char* const level : {"", "glibc-hwcaps/x86-64-v3", "glibc-hwcaps/x86-64-v4"})
     {
-      EXPECT_EQ(package.run().exit_code, 2);
+      fs::create_directories(place / level);
+      fs::copy_file(FELDSPAR_BUILD_DIR "/lib/feldspar/libfeldspar-code.so", place / level / "libfeldspar-code.so");
     }
-  package.add("x86-64-v3");
-  const auto both = package.run();
-  if (avx2)
+  // The loader of a processor without what each level adds to the one before.
+  for (const auto& [without, taken] :
+       {std::pair("AVX512F", "glibc-hwcaps/x86-64-v3/"), {"AVX512F,-AVX2", "lib/feldspar/libfeldspar-code.so"}})
     {
-      EXPECT_EQ(both.exit_code, 7) << both.error;
-      EXPECT_EQ(both.output, fmt::format("{} lab a rock.prm\n", avx512 ? "x86-64-v4" : "x86-64-v3"));
-    }
-}
-
-TEST(Launcher, TakesALowerLevelWhereTheHigherOneIsNotInstalled)
-{
-  const Package package;
-  package.add("x86-64-v3");
-  const auto outcome = package.run();
-  if (processor_has("avx2 bmi1 bmi2 fma"))
-    {
-      EXPECT_EQ(outcome.output, "x86-64-v3 lab a rock.prm\n");
-    }
-  else
-    {
-      EXPECT_EQ(outcome.exit_code, 2);
+      const auto loaded =
+        run_command(folder.path(),
+                    fmt::format("GLIBC_TUNABLES=glibc.cpu.hwcaps=-{} LD_TRACE_LOADED_OBJECTS=1 bin/feldspar", without));
+      EXPECT_NE(loaded.output.find(taken), std::string::npos) << without << ": " << loaded.output;
     }
 }
 
