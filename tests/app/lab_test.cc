@@ -419,7 +419,7 @@ end
 subsection Tests
   set List = triaxial_compression
   set Confinements = 10 MPa
-  set Stop strain = 6e-4
+  set Stop strain = 2e-3
   set Compression strain rate = 4 1/s
 end
 subsection Variants
@@ -433,8 +433,9 @@ end
   EXPECT_TRUE(json["tests"][0]["servo_error"].is_number());
   EXPECT_TRUE(json["tests"][1]["servo_error"].is_null());
   EXPECT_LT(json["tests"][1]["energy_imbalance"].get<double>(), 0.01);
-  // Rigid plates hold a plane through the body by more than the confinement.
-  EXPECT_LT(json["tests"][1]["peak_stress_Pa"].get<double>(), json["tests"][0]["peak_stress_Pa"].get<double>());
+  // Rigid plates hold a plane through the body by more than the confinement; the remark advises the membrane.
+  const std::string page = content(folder.path() / "out/report.html");
+  EXPECT_NE(page.find("Tests/Lateral boundary = membrane has no such error"), std::string::npos);
 }
 
 TEST(Lab, RunsVariantsOfOneEntry)
