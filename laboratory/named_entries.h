@@ -29,6 +29,7 @@ inline constexpr EntryName reference_file{"Report", "Reference file"};
 inline constexpr EntryName material{"Sample", "Material"};
 inline constexpr EntryName newton_tolerance{"Sample", "Newton tolerance"};
 inline constexpr EntryName confinements{"Tests", "Confinements"};
+inline constexpr EntryName lateral_boundary{"Tests", "Lateral boundary"};
 inline constexpr EntryName least_fall{"Tests", "Least fall after peak"};
 inline constexpr EntryName least_stress{"Tests", "Least peak stress"};
 inline constexpr EntryName least_transits{"Tests", "Least transits to peak"};
@@ -42,7 +43,7 @@ inline constexpr EntryName all[] = {elastic_modulus,  lateral_ratio,  targets,  
                                     installation_gap, reference_file, material,       newton_tolerance, confinements,
                                     report_author,    report_client,  report_date,    report_specimen,  report_title,
                                     least_fall,       least_stress,   least_transits, notch_ratio,      platen_friction,
-                                    stop_strain,      stop_stress,    test_list};
+                                    stop_strain,      stop_stress,    test_list,      lateral_boundary};
 
 /// Commands that write or read what results are about.
 inline constexpr const char* calibrate = "feldspar calibrate";

@@ -34,9 +34,6 @@ inline const EntryFlags of_grains{.varies = true,
                                   .needs = "is of tests on specimens of grains"};
 inline const EntryFlags of_platens{.bodies = {Body::plane_box, Body::box, Body::cylinder, Body::sample},
                                    .needs = "is of tests on bodies between platens"};
-inline const EntryFlags of_cylinder{.varies = true,
-                                    .bodies = {Body::cylinder},
-                                    .needs = "goes round a cylinder of grains: Shape = cylinder, Dimension = 3"};
 inline const EntryFlags of_box{.varies = true,
                                .bodies = {Body::box},
                                .needs = "presses on two sides of a box of grains in space: Shape = box, Dimension = 3"};

@@ -1,101 +1,147 @@
 #include "dem/lab/membrane.h"
 
+#include "dem/flaws/shapes.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace feldspar
 {
-LateralSurface lateral_surface(const Specimen<3>& specimen, const double lower, const double upper)
+namespace
 {
+/// Returns whether a closed flaw lies between two points. Discs are left out: their outline is that of one section.
+template <int dim>
+bool are_parted(const Specimen<dim>& specimen, const Vector<dim>& one, const Vector<dim>& two)
+{
+  const auto in_plane = [](const Vector<dim>& point) { return Vector<2>(point[0], point[dim - 1]); };
+  for (const Flaw<dim>& flaw : specimen.flaws)
+    for (std::size_t k = 1; k < flaw.outline.size() && !flaw.open && flaw.name != DiscFlaw::name; ++k)
+      if (cross(in_plane(one), in_plane(two), in_plane(flaw.outline[k - 1]), in_plane(flaw.outline[k])))
+        return true;
+  return false;
+}
+} // namespace
+
+template <int dim>
+LateralSurface<dim> lateral_surface(const Specimen<dim>& specimen, const std::vector<bool>& counts, const double lower,
+                                    const double upper)
+{
+  using Across = Vector<dim - 1>; // from the axis
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   const auto& grains = specimen.grains;
-  // A raster on the side, some cells to a radius.
-  const double cell = 0.4 * specimen.report.mean_radius;
-  const double side_radius = 0.5 * specimen.size[0];
-  const auto n_around = std::size_t(std::ceil(2.0 * std::numbers::pi * side_radius / cell));
-  const auto n_along = std::max(std::size_t(1), std::size_t(std::ceil((upper - lower) / cell)));
+  const double radius = specimen.report.mean_radius;
+  const Across axis = 0.5 * specimen.size.template head<dim - 1>();
+  // Rows of rays along the axis: in the plane one to the right and one to the left, in space a ring.
+  const double spacing = (dim == 2 ? 0.1 : 0.4) * radius;
+  const auto n_rows = std::max(std::ptrdiff_t(1), std::ptrdiff_t(std::ceil((upper - lower) / spacing)));
+  const double rise = (upper - lower) / double(n_rows);
+  const auto n_around = std::ptrdiff_t(dim == 2 ? 2.0 : std::ceil(2.0 * std::numbers::pi * axis.norm() / spacing));
   const double angle = 2.0 * std::numbers::pi / double(n_around);
-  const double rise = (upper - lower) / double(n_along);
-  std::vector<double> met_at(n_around * n_along, 0.0); // distance of the surface from the axis
-  std::vector<std::uint32_t> met(n_around * n_along, none);
-  std::vector<double> nearest_distance(n_around * n_along, std::numeric_limits<double>::infinity());
-  std::vector<std::uint32_t> nearest(n_around * n_along, none);
-
-  for (std::uint32_t i = 0; i < grains.size(); ++i)
+  std::vector<Across> directions(std::size_t(n_around), Across::Zero());
+  for (std::size_t k = 0; k < directions.size(); ++k)
     {
-      const double x = grains.position[0][i] - 0.5 * specimen.size[0];
-      const double y = grains.position[1][i] - 0.5 * specimen.size[1];
-      const double z = grains.position[2][i];
-      const double radius = grains.radius[i];
-      const double from_axis = std::hypot(x, y);
-      // Only the outer grains; a void in the side is no deeper than a grain or two.
-      if (from_axis + radius < side_radius - 4.0 * specimen.report.mean_radius || from_axis <= radius)
-        continue;
-      const double at = std::atan2(y, x);
-      // Reach of the shadow, widened by a radius for the voids.
-      const double reach = 2.0 * radius;
-      const auto half_around = std::ptrdiff_t(std::ceil(reach / from_axis / angle));
-      const auto middle = std::ptrdiff_t(std::floor(at / angle));
-      const auto first_row = std::ptrdiff_t(std::floor((z - reach - lower) / rise));
-      const auto last_row = std::ptrdiff_t(std::ceil((z + reach - lower) / rise));
-      for (std::ptrdiff_t row = std::max(std::ptrdiff_t(0), first_row);
-           row <= std::min(last_row, std::ptrdiff_t(n_along) - 1); ++row)
-        for (std::ptrdiff_t k = middle - half_around; k <= middle + half_around; ++k)
-          {
-            const auto column = std::size_t((k % std::ptrdiff_t(n_around) + std::ptrdiff_t(n_around))) % n_around;
-            const std::size_t c = std::size_t(row) * n_around + column;
-            const double ray = (double(k) + 0.5) * angle;
-            const double along = x * std::cos(ray) + y * std::sin(ray);
-            const double across = -x * std::sin(ray) + y * std::cos(ray);
-            const double height = lower + (double(row) + 0.5) * rise - z;
-            const double miss_squared = across * across + height * height;
-            if (along <= 0.0)
-              continue;
-            if (miss_squared < radius * radius)
-              {
-                const double surface = along + std::sqrt(radius * radius - miss_squared);
-                if (surface > met_at[c])
-                  {
-                    met_at[c] = surface;
-                    met[c] = i;
-                  }
-              }
-            const double distance = std::sqrt(miss_squared) - radius + (side_radius - along - radius);
-            if (distance < nearest_distance[c])
-              {
-                nearest_distance[c] = distance;
-                nearest[c] = i;
-              }
-          }
+      directions[k][0] = std::cos(double(k) * angle);
+      if constexpr (dim == 3)
+        directions[k][1] = std::sin(double(k) * angle);
     }
 
-  LateralSurface surface;
-  resize<3>(surface.inward_area, grains.size());
-  double squares = 0.0;
-  double n_met = 0.0;
-  for (std::size_t row = 0; row < n_along; ++row)
-    for (std::size_t column = 0; column < n_around; ++column)
-      {
-        const std::size_t c = row * n_around + column;
-        // A ray that met a grain far inside has gone through a void; the membrane spans it.
-        const bool spanned = met[c] == none || (nearest[c] != none && nearest[c] != met[c] &&
-                                                met_at[c] < side_radius - 2.0 * specimen.report.mean_radius);
-        const std::uint32_t i = spanned ? nearest[c] : met[c];
-        if (i == none)
-          continue;
-        const double x = grains.position[0][i] - 0.5 * specimen.size[0];
-        const double y = grains.position[1][i] - 0.5 * specimen.size[1];
-        const double distance = spanned ? std::hypot(x, y) + grains.radius[i] : met_at[c];
-        const double ray = (double(column) + 0.5) * angle;
-        const double area = distance * angle * rise;
-        surface.inward_area[0][i] -= area * std::cos(ray);
-        surface.inward_area[1][i] -= area * std::sin(ray);
-        squares += distance * distance;
-        ++n_met;
-      }
-  surface.cross_section = n_met > 0.0 ? std::numbers::pi * squares / n_met : 0.0;
+  // Grains are met as if they were larger by a mean radius: what lies between two that are met is spanned.
+  std::vector<double> met_at(std::size_t(n_rows * n_around), -std::numeric_limits<double>::infinity());
+  std::vector<std::uint32_t> met(met_at.size(), none);
+  for (std::uint32_t i = 0; i < grains.size(); ++i)
+    {
+      if (!counts[i])
+        continue;
+      const Vector<dim> centre = at<dim>(grains.position, i);
+      const Across from_axis = centre.template head<dim - 1>() - axis;
+      const double reach = grains.radius[i] + radius;
+      std::ptrdiff_t first = 0;
+      std::ptrdiff_t last = n_around - 1;
+      if constexpr (dim == 3)
+        {
+          if (from_axis.norm() <= reach)
+            continue; // in the middle
+          const double half = std::asin(reach / from_axis.norm());
+          const double towards = std::atan2(from_axis[1], from_axis[0]);
+          first = std::ptrdiff_t(std::ceil((towards - half) / angle));
+          last = std::ptrdiff_t(std::floor((towards + half) / angle));
+        }
+      const double at_row = (centre[dim - 1] - lower) / rise - 0.5;
+      const auto lowest = std::max(std::ptrdiff_t(0), std::ptrdiff_t(std::ceil(at_row - reach / rise)));
+      const auto highest = std::min(n_rows - 1, std::ptrdiff_t(std::floor(at_row + reach / rise)));
+      for (std::ptrdiff_t k = first; k <= last; ++k)
+        {
+          const auto column = std::size_t((k + n_around) % n_around);
+          const double along = from_axis.dot(directions[column]);
+          for (std::ptrdiff_t row = lowest; row <= highest; ++row)
+            {
+              const double height = (double(row) - at_row) * rise;
+              const double half_chord_squared =
+                reach * reach - (from_axis.squaredNorm() - along * along) - height * height;
+              const std::size_t ray = std::size_t(row * n_around) + column;
+              if (half_chord_squared > 0.0 && along + std::sqrt(half_chord_squared) > met_at[ray])
+                {
+                  met_at[ray] = along + std::sqrt(half_chord_squared);
+                  met[ray] = i;
+                }
+            }
+        }
+    }
+
+  // A closed flaw that comes to the side divides it there, though grains of one face stand before those of the other.
+  const auto behind_flaws = [&](const std::uint32_t met_first, const Vector<dim>& touched) {
+    if (!are_parted<dim>(specimen, touched, at<dim>(grains.position, met_first)))
+      return met_first;
+    std::uint32_t grain = met_first;
+    double nearest = 6.0 * radius;
+    for (std::uint32_t i = 0; i < grains.size(); ++i)
+      if (const double distance = (at<dim>(grains.position, i) - touched).norm() - grains.radius[i];
+          counts[i] && distance < nearest && !are_parted<dim>(specimen, touched, at<dim>(grains.position, i)))
+        {
+          nearest = distance;
+          grain = i;
+        }
+    return grain;
+  };
+
+  LateralSurface<dim> surface{{}, 0.0};
+  resize<dim>(surface.inward_area, grains.size());
+  for (std::ptrdiff_t row = 0; row < n_rows; ++row)
+    {
+      std::vector<std::pair<std::uint32_t, Across>> outline; // grains, and where the membrane touches them
+      for (std::size_t k = 0; k < directions.size(); ++k)
+        if (const std::size_t ray = std::size_t(row * n_around) + k; met[ray] != none)
+          {
+            const Vector<dim> centre = at<dim>(grains.position, met[ray]);
+            const double share = grains.radius[met[ray]] / (grains.radius[met[ray]] + radius);
+            Vector<dim> hit;
+            hit << axis + met_at[ray] * directions[k], lower + (double(row) + 0.5) * rise;
+            const Vector<dim> touched = centre + share * (hit - centre);
+            outline.emplace_back(behind_flaws(met[ray], touched), touched.template head<dim - 1>() - axis);
+          }
+      const std::size_t n = outline.size();
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          const auto& [grain, touched] = outline[k];
+          Across inward = -rise * specimen.thickness * directions[k];
+          if constexpr (dim == 3) // half of the way from the point before to that behind: the ring closes
+            {
+              const Across way = outline[(k + 1) % n].second - outline[(k + n - 1) % n].second;
+              inward = 0.5 * rise * Across(-way[1], way[0]);
+            }
+          for (int c = 0; c < dim - 1; ++c)
+            surface.inward_area[c][grain] += inward[c];
+          surface.cross_section -= touched.dot(inward) / (double(dim - 1) * (upper - lower));
+        }
+    }
   return surface;
 }
+
+template LateralSurface<2> lateral_surface<2>(const Specimen<2>&, const std::vector<bool>&, double, double);
+template LateralSurface<3> lateral_surface<3>(const Specimen<3>&, const std::vector<bool>&, double, double);
 } // namespace feldspar

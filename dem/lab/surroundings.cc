@@ -14,9 +14,9 @@ std::vector<Entry<TestParameters>> confinement_entries()
   return within_tests<P>(
     {entry::choice("Lateral boundary", &P::lateral_boundary,
                    {{"wall", LateralBoundary::wall}, {"membrane", LateralBoundary::membrane}},
-                   "of a cylinder in triaxial compression: a rigid wall held at the pressure, or the pressure "
-                   "itself on the outer grains",
-                   of_cylinder),
+                   "in triaxial compression: rigid walls held at the pressure, or the pressure itself on the outer "
+                   "grains, so that the sides may bend",
+                   of_grains),
      entry::optional_quantity(
        "Intermediate stress", &P::intermediate_stress, Measure::stress, "MPa", ranges::above_zero,
        "on the second pair of sides of a box in three dimensions (true triaxial compression); none: "
@@ -34,18 +34,28 @@ Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const dou
   const Vector<dim> size = specimen.size;
   const double thickness = specimen.thickness;
   Surroundings<dim> around;
+  const auto other_stress = confinement.intermediate_stress.value_or(confining_pressure);
+  if (other_stress != confining_pressure)
+    around.intermediate_stress = other_stress;
+  if (confinement.lateral_boundary == LateralBoundary::membrane)
+    {
+      const auto surface = [=, counts = grains_of_body(specimen)](State state) {
+        return lateral_surface(state.specimen(), counts, state.walls()[ends.low].position,
+                               state.walls()[ends.high].position);
+      };
+      around.end_area = [=](State state) { return surface(state).cross_section; };
+      around.press_membrane = [=](Dynamics<dim>& state, const double share) {
+        auto forces = surface(state).inward_area;
+        for (int axis = 0; axis < dim - 1; ++axis)
+          for (double& force : forces[axis])
+            force *= share * (axis == 0 ? confining_pressure : other_stress);
+        state.apply_forces(forces);
+      };
+      return around;
+    }
   if constexpr (dim == 3)
     if (specimen.is_round())
       {
-        if (confinement.lateral_boundary == LateralBoundary::membrane)
-          {
-            around.end_area = [=](State state) {
-              return lateral_surface(state.specimen(), state.walls()[ends.low].position,
-                                     state.walls()[ends.high].position)
-                .cross_section;
-            };
-            return around;
-          }
         const std::size_t wall = stand_wall(test, round_wall(specimen), "side wall");
         const auto radius = [=](State state) { return state.walls()[wall].position; };
         around.sides = {{{wall},
@@ -67,9 +77,7 @@ Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const dou
       const auto area = [=](State state) {
         return distance(state, ends) * (dim == 2 ? thickness : distance(state, pairs[std::size_t(dim - 2 - axis)]));
       };
-      if (axis == 1 && confinement.intermediate_stress && *confinement.intermediate_stress != confining_pressure)
-        around.intermediate_stress = confinement.intermediate_stress;
-      around.sides.push_back({{pair.low, pair.high}, area, around.intermediate_stress.value_or(confining_pressure)});
+      around.sides.push_back({{pair.low, pair.high}, area, axis == 0 ? confining_pressure : other_stress});
     }
   around.end_area = [=](State state) {
     return distance(state, pairs[0]) * (dim == 2 ? thickness : distance(state, pairs.back()));

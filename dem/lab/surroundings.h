@@ -13,10 +13,10 @@
 
 namespace feldspar
 {
-/// The lateral boundary of a cylinder in a triaxial test.
+/// The lateral boundary of a specimen in a triaxial test.
 enum class LateralBoundary
 {
-  wall,    ///< a rigid cylinder that shrinks and widens
+  wall,    ///< rigid walls, or a rigid cylinder that shrinks and widens
   membrane ///< a pressure on the outer grains, each by its share of the side
 };
 
@@ -56,6 +56,8 @@ struct Surroundings
   std::vector<Press<dim>> sides; ///< the first holds the confining pressure; none with a membrane
   std::optional<double> intermediate_stress = std::nullopt; ///< where a side holds another [Pa]
   std::function<double(const Dynamics<dim>&)> end_area;
+  /// Puts this share of the pressures on the grains that lie at the sides now; empty with walls.
+  std::function<void(Dynamics<dim>&, double share)> press_membrane = {};
 };
 
 /// Stands the walls around the sides of a specimen between two platens, for a confining pressure [Pa].

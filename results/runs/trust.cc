@@ -248,9 +248,10 @@ std::string remark_on_side_plates(const TestsOfRock& tests)
         return fmt::format(
           "A {} crosses the body from side to side at {:.0f} deg to the platens. Rigid side plates hold each half by one "
           "plate alone: where the body slides on it, the deviator is that of {:.2f} times the confining pressure, {:.0f} % "
-          "too high (docs/theory.md, section 3.1). A body as high as its width times tan {:.0f} deg has no such error.",
+          "too high (docs/theory.md, section 3.1). {} = membrane has no such error, nor has a body as high as its width times "
+          "tan {:.0f} deg.",
           plane->name, plane->angle * 180.0 / std::numbers::pi, factor, 100.0 * (factor - 1.0),
-          plane->angle * 180.0 / std::numbers::pi);
+          input_entries::lateral_boundary.text(), plane->angle * 180.0 / std::numbers::pi);
     }
   return "";
 }

@@ -181,7 +181,8 @@ TEST(Check, RefusesWhatItsCommandRefusesAtOnce)
     const char* why;
   };
   const std::vector<Refused> all{
-    {"lab", "subsection Tests\n  set Lateral boundary = membrane\nend\n", "Tests/Lateral boundary = membrane: goes "},
+    {"lab", "subsection Tests\n  set Intermediate stress = 30 MPa\nend\n",
+     "Tests/Intermediate stress = 30 MPa: presses "},
     {"lab", cell, "Specimen/Specimen file: is a periodic cell; "},
     {"lab", "subsection Specimen\n  set Dimension = 3\n  set Specimen file = cell/specimen.h5\nend\n",
      "cell/specimen.h5: "},
@@ -221,12 +222,12 @@ TEST(Check, SaysWhichCommandsTakeAnInput)
             "rock.prm: OK for feldspar lab\n");
   EXPECT_EQ(run_feldspar(folder.path(), "parameters --check rock.prm --for slab").exit_code, 2);
 
-  // A membrane in the plane: grains can be packed, and that is all.
-  folder.write("plane.prm", "subsection Tests\n  set Lateral boundary = membrane\nend\n");
+  // A third stress in the plane: grains can be packed, and that is all.
+  folder.write("plane.prm", "subsection Tests\n  set Intermediate stress = 30 MPa\nend\n");
   const Outcome plane = run_feldspar(folder.path(), "parameters --check plane.prm");
   EXPECT_EQ(plane.exit_code, 2);
   EXPECT_EQ(plane.error, "feldspar: plane.prm: no command that tests rock takes it; the reasons stand above\n");
-  EXPECT_NE(plane.output.find("  not for feldspar lab: Tests/Lateral boundary = membrane: "), std::string::npos)
+  EXPECT_NE(plane.output.find("  not for feldspar lab: Tests/Intermediate stress = 30 MPa: "), std::string::npos)
     << plane.output;
 
   // Elements larger than the cell that softens for them are a remark of the run, too.

@@ -807,7 +807,7 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
   expect(input("  set Control past the peak = lateral strain\n", "  set List = uniaxial_compression\n"),
          "bad.prm: Sample/Control past the peak = lateral strain: the axial strain may go back");
   expect(input("", "  set Lateral boundary = membrane\n"),
-         "bad.prm: Tests/Lateral boundary = membrane: goes round a cylinder of grains");
+         "bad.prm: Tests/Lateral boundary = membrane: is of tests on specimens of grains");
   expect(input("", "  set Intermediate stress = 30 MPa\n"),
          "bad.prm: Tests/Intermediate stress = 30 MPa: presses on two sides of a box");
   std::string many = input("", "");

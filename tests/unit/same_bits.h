@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-/// Uniaxial compressions that must have the same bits, and cracks by which they could differ.
+/// Tests, uniaxial compressions unless said, that must have the same bits, and cracks by which they could differ.
 namespace feldspar::tests
 {
 inline void expect_same_bits(const TestOutcome& one, const TestOutcome& two)
@@ -27,11 +27,12 @@ inline void expect_same_bits(const TestOutcome& one, const TestOutcome& two)
 
 /// After so many rows, by one thread and by two.
 template <int dim>
-void expect_same_bits_on_two_threads(const Specimen<dim>& specimen, const TestParameters& wanted, const int n_rows)
+void expect_same_bits_on_two_threads(const Specimen<dim>& specimen, const TestParameters& wanted, const int n_rows,
+                                     const LaboratoryCase& test_case = {uniaxial_compression})
 {
   const auto end = [&](const std::size_t n_threads) {
     const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
-    LabTest<dim> test({uniaxial_compression}, specimen, wanted, {});
+    LabTest<dim> test(test_case, specimen, wanted, {});
     for (int n = 0; n < n_rows && test.advance(); ++n)
       ;
     return test.finish(true);
@@ -42,14 +43,15 @@ void expect_same_bits_on_two_threads(const Specimen<dim>& specimen, const TestPa
 /// After `n_before` rows a checkpoint, from which a test on the specimen as it was `read_back` goes on for `n_after` rows.
 template <int dim>
 void expect_same_bits_when_resumed(const Specimen<dim>& specimen, const Specimen<dim>& read_back,
-                                   const TestParameters& wanted, const int n_before, const int n_after)
+                                   const TestParameters& wanted, const int n_before, const int n_after,
+                                   const LaboratoryCase& test_case = {uniaxial_compression})
 {
   const TemporaryFolder folder;
-  LabTest<dim> whole({uniaxial_compression}, specimen, wanted, {});
+  LabTest<dim> whole(test_case, specimen, wanted, {});
   for (int n = 0; n < n_before; ++n)
     whole.advance();
   whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<dim> again({uniaxial_compression}, read_back, wanted, {});
+  LabTest<dim> again(test_case, read_back, wanted, {});
   again.read_checkpoint(folder.path() / "test.h5", "one");
   for (int n = 0; n < n_after; ++n)
     {

@@ -6,6 +6,7 @@
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/surroundings.h"
 #include "laboratory/compression.h"
 #include "results/evaluation.h"
 
@@ -13,7 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 namespace feldspar
 {
@@ -166,23 +169,25 @@ TEST(AnInclinedSlot, GrowsWingsAtItsTipsInTheDirectionOfTheory)
   EXPECT_NEAR(std::atan2(y, x) * 180.0 / std::numbers::pi, 45.0 + 70.5, 15.0);
 }
 
-/// Strength of granite with a plane of this angle through its middle, from side to side and without cohesion: the
-/// highest axial stress up to a strain at which all of it slides [Pa], compression positive. Bonds are so strong that
-/// only the plane gives way: with those of Table 1 some grains break before a plane of 45 degrees slides, and three of
-/// eight packings carry 3 to 5 % less.
-double slip_strength(const double width, const double height, const double angle, const double friction_angle,
-                     const double pressure)
+/// Granite with bonds so strong that only a plane through it gives way: with those of Table 1 some grains break before a
+/// plane of 45 degrees slides, and three of eight packings carry 3 to 5 % less.
+Specimen<2> strong_granite(const double width, const double height, const std::uint64_t seed = 1)
 {
-  Specimen<2> specimen = granite(width, height, 0.62e-3, 1, 10.0);
-  const Vector<2> middle = 0.5 * specimen.size;
-  const Vector<2> half = 0.5 * width * Vector<2>(1.0, std::tan(angle));
+  return granite(width, height, 0.62e-3, seed, 10.0);
+}
+
+/// Strength of a specimen with a plane of this angle through its middle, from side to side and without cohesion: the
+/// highest axial stress of the test [Pa], compression positive.
+template <int dim>
+double slip_strength(Specimen<dim> specimen, const double angle, const double friction_angle, const double pressure,
+                     TestParameters wanted)
+{
+  const Vector<2> middle(0.5 * specimen.size[0], 0.5 * specimen.size[dim - 1]);
+  const Vector<2> half = middle[0] * Vector<2>(1.0, std::tan(angle));
   SmoothSides sides;
   sides.friction = std::tan(friction_angle);
-  put_in_flaws<2>(specimen, {ClosedFlaw{{middle - half, middle + half}, sides}});
-  TestParameters wanted;
-  wanted.of<CompressionParameters>().strain_rate = 0.5;
-  wanted.stop_strain = 1.5e-3;
-  LabTest<2> test({triaxial_compression, pressure}, specimen, wanted, {});
+  put_in_flaws<dim>(specimen, {ClosedFlaw{{middle - half, middle + half}, sides}});
+  LabTest<dim> test({triaxial_compression, pressure}, specimen, wanted, {});
   while (test.advance())
     ;
   const TestOutcome outcome = test.finish(false);
@@ -191,6 +196,15 @@ double slip_strength(const double width, const double height, const double angle
   for (const CurveSample& row : outcome.record.curve)
     highest = std::max(highest, -row.axial_stress);
   return highest;
+}
+
+/// Compression until the whole plane slides.
+TestParameters slow_compression(const double strain_rate = 0.5)
+{
+  TestParameters wanted;
+  wanted.of<CompressionParameters>().strain_rate = strain_rate;
+  wanted.stop_strain = 1.5e-3;
+  return wanted;
 }
 
 /// σ_1 = σ_3 + 2 σ_3 tan φ / ((1 - tan φ cot β) sin 2β), Jaeger's plane of weakness without cohesion.
@@ -213,8 +227,9 @@ TEST(ASmoothPlane, SlipsUnderConfinementAsJaegerSays)
       const double width = 0.016;
       const double height = 1.0001 * width * std::tan(angle);
       const double deviator = jaegers_strength(pressure, angle, friction_angle) - pressure;
-      EXPECT_NEAR(slip_strength(width, height, angle, friction_angle, pressure) - pressure, deviator, 0.02 * deviator)
-        << angle / degree;
+      const double strength =
+        slip_strength(strong_granite(width, height), angle, friction_angle, pressure, slow_compression());
+      EXPECT_NEAR(strength - pressure, deviator, 0.02 * deviator) << angle / degree;
     }
 }
 
@@ -231,9 +246,103 @@ TEST(ASmoothPlane, BearsWhatLongerSidePlatesPutOnItsHalves)
     {
       const double on_plane = pressure * height / (width * std::tan(angle));
       const double strength = jaegers_strength(on_plane, angle, friction_angle);
-      EXPECT_NEAR(slip_strength(width, height, angle, friction_angle, pressure), strength, 0.02 * strength)
+      EXPECT_NEAR(slip_strength(strong_granite(width, height), angle, friction_angle, pressure, slow_compression()),
+                  strength, 0.02 * strength)
         << angle / degree;
     }
+}
+
+TestParameters under_membrane(const double strain_rate)
+{
+  TestParameters wanted = slow_compression(strain_rate);
+  wanted.stop_strain = 1e-3;
+  wanted.of<ConfinementParameters>().lateral_boundary = LateralBoundary::membrane;
+  return wanted;
+}
+
+TEST(ASmoothPlane, SlipsUnderAMembraneAsJaegerSaysInABodyTwiceAsHighAsWide)
+{
+  // Twelve grains across; the mean of three packings, each of which is within 4 %. Between rigid side plates the deviators
+  // would be too large by 100, 45 and 15 %.
+  for (const double angle : {45.0 * degree, 54.0 * degree, 60.0 * degree})
+    {
+      const double strength = jaegers_strength(10e6, angle, 30.0 * degree);
+      double mean = 0.0;
+      for (const std::uint64_t seed : {1, 2, 3})
+        mean +=
+          slip_strength(strong_granite(0.020, 0.040, seed), angle, 30.0 * degree, 10e6, under_membrane(0.5)) / 3.0;
+      EXPECT_NEAR(mean - 10e6, strength - 10e6, 0.03 * (strength - 10e6)) << angle / degree;
+    }
+}
+
+TEST(ASmoothPlane, SlipsUnderAMembraneInSpaceAsJaegerSays)
+{
+  // Seven grains across; the mean of two packings.
+  for (const BodyShape shape : {BodyShape::cylinder, BodyShape::box})
+    {
+      const double angle = 54.0 * degree;
+      const double strength = jaegers_strength(10e6, angle, 30.0 * degree);
+      double mean = 0.0;
+      for (const std::uint64_t seed : {1, 2})
+        {
+          SpecimenParameters wanted;
+          wanted.dimension = 3;
+          wanted.shape = shape;
+          wanted.width = 0.011;
+          wanted.height = 0.022;
+          wanted.porosity = 0.38;
+          FlatJointParameters strong;
+          strong.installation_gap_ratio = 0.05;
+          strong.bond_tensile_strength *= 10.0;
+          strong.bond_cohesion *= 10.0;
+          mean +=
+            slip_strength(make_specimen<3>(wanted, strong, {}, seed), angle, 30.0 * degree, 10e6, under_membrane(2.0)) /
+            2.0;
+        }
+      EXPECT_NEAR(mean - 10e6, strength - 10e6, 0.03 * (strength - 10e6)) << int(shape);
+    }
+}
+
+/// The range of the outermost points of either side of a body over its height, in bands of six mean radii; the larger
+/// one, over the mean radius.
+double unevenness(const Specimen<2>& specimen, const Snapshot& end)
+{
+  const double radius = specimen.report.mean_radius;
+  double largest = 0.0;
+  for (const double side : {-1.0, 1.0})
+    {
+      std::vector<double> outermost(std::size_t(specimen.size[1] / (6.0 * radius)), -1.0);
+      for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+        {
+          const double band = end.position[1][i] / specimen.size[1] * double(outermost.size());
+          double& most = outermost[std::min(std::size_t(std::max(0.0, band)), outermost.size() - 1)];
+          most = std::max(most, side * end.position[0][i] + specimen.grains.radius[i]);
+        }
+      const auto [least, most] = std::minmax_element(outermost.begin(), outermost.end());
+      largest = std::max(largest, (*most - *least) / radius);
+    }
+  return largest;
+}
+
+TEST(ADensePacking, MayBendItsSidesUnderAMembraneAlone)
+{
+  // Bonds of a twentieth of the strength of granite break before the peak. Two blocks then slide on a band, and the sides
+  // are offset where it ends; rigid side plates keep them straight.
+  const Specimen<2> specimen = granite(0.030, 0.060, 0.62e-3, 1, 0.05);
+  const auto at_end = [&](const LateralBoundary boundary) {
+    TestParameters wanted = slow_compression(8.0);
+    wanted.stop_strain = 0.025;
+    wanted.of<CompressionParameters>().sampling_strain = 3e-4;
+    wanted.of<ConfinementParameters>().lateral_boundary = boundary;
+    LabTest<2> test({triaxial_compression, 10e6}, specimen, wanted, {});
+    while (test.advance())
+      ;
+    const TestOutcome outcome = test.finish(false);
+    EXPECT_LT(outcome.record.curve.back().energies.imbalance(), 1e-3);
+    return unevenness(specimen, outcome.appearance.snapshots.back());
+  };
+  EXPECT_GT(at_end(LateralBoundary::membrane), 1.0);
+  EXPECT_LT(at_end(LateralBoundary::wall), 0.2);
 }
 
 TEST(ASmoothPlane, InSpaceSlidesInTheShearBoxByCoulombsLawAndDilatesByItsAngle)

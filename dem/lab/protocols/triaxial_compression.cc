@@ -1,5 +1,4 @@
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/membrane.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
@@ -15,22 +14,6 @@ namespace feldspar
 {
 namespace
 {
-/// Puts the pressure on the outer grains, now and then anew as they move.
-template <int dim>
-void press_membrane(Dynamics<dim>& dynamics, const WallPair& ends, const double pressure)
-{
-  if constexpr (dim == 3)
-    {
-      auto forces =
-        lateral_surface(dynamics.specimen(), dynamics.walls()[ends.low].position, dynamics.walls()[ends.high].position)
-          .inward_area;
-      for (auto& component : forces)
-        for (double& force : component)
-          force *= pressure;
-      dynamics.apply_forces(forces);
-    }
-}
-
 template <int dim>
 SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double confining_pressure,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
@@ -43,7 +26,7 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
   const double closing_speed = own.strain_rate * height;
   const double largest_servo_speed = 20.0 * 0.5 * closing_speed;
   const auto around = surround(test, ends, confining_pressure, wanted);
-  const bool membrane = around.sides.empty();
+  const bool membrane = bool(around.press_membrane);
   // Fitting the membrane anew at every step of the seating would change the ends' area by nothing to speak of.
   const double area_at_rest = membrane ? around.end_area(test.dynamics) : 0.0;
   const auto seating_area = [=](const Dynamics<dim>& state) {
@@ -66,7 +49,7 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
       for (const auto& side : around.sides)
         hold(state, side, share);
       if (membrane_is_due(state) || (membrane && share < 1.0 && state.n_steps() % 20 == 0))
-        press_membrane(state, ends, share * confining_pressure);
+        around.press_membrane(state, share);
       hold(state, end_press, share);
     };
     const auto largest_deviation = [&] {
@@ -85,7 +68,7 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
                           largest_deviation},
                          check);
     if (membrane)
-      press_membrane(state, ends, confining_pressure);
+      around.press_membrane(state, 1.0);
     start_steadily(state, -own.strain_rate, about);
     close(state, ends, closing_speed);
   };
@@ -93,7 +76,7 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
     for (const auto& side : around.sides)
       hold(state, side, 1.0);
     if (membrane_is_due(state))
-      press_membrane(state, ends, confining_pressure);
+      around.press_membrane(state, 1.0);
   };
 
   test.loading.intermediate_stress = around.intermediate_stress;
