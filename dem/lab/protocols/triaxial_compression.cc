@@ -39,7 +39,7 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
   const WallPair ends = add_platens(test, wanted.platen_friction);
   const double height = distance(test.dynamics, ends);
   const Machine machine = machine_of(test, ends, wanted.of<CompressionParameters>());
-  const double largest_servo_speed = 20.0 * 0.5 * machine.strain_rate * height;
+  const double largest_servo_speed = 20.0 * 0.5 * (machine.strain_rate * height);
   const auto around = surround(test, ends, confining_pressure, wanted);
   const bool membrane = around.sides.empty();
   // Fitting the membrane anew at every step would change the ends' area by nothing to speak of.
