@@ -27,7 +27,8 @@ enum class Measure
   angle,
   density,
   rate,
-  stiffness ///< of a plane: stress over displacement
+  stiffness, ///< of a plane: stress over displacement
+  spring     ///< stiffness of a spring: force over displacement
 };
 
 /// An interval as it is written in books: '[' and ']' take the bound in, '(' and ')' leave it out. Bounds in the unit in

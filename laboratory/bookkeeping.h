@@ -42,6 +42,8 @@ struct RankBalance
 struct RunBookkeeping
 {
   std::uint64_t steps = 0;
+  /// Steps of the loading at the rate of the laboratory; NaN where none was wanted.
+  double steps_at_laboratory_rate = std::numeric_limits<double>::quiet_NaN();
   double time_step = 0.0;                                             ///< the last one; NaN where there is no time [s]
   double wall_time = 0.0;                                             ///< [s]
   double largest_residual = std::numeric_limits<double>::quiet_NaN(); ///< of the steps of a sample; NaN without

@@ -52,8 +52,9 @@ struct TestKind
   bool runs_on_finite_elements = false; ///< a sample that is pulled or pressed at its ends
   bool follows_stages = false;          ///< of a table, back and forth
   bool has_notch = false;               ///< and so gives a fracture toughness
-  int strength_decimals = 1;            ///< of the strength in MPa in tables
-  int duration_rank = 0; ///< tests of the higher rank last longer; in one rank those of the higher pressure
+  bool tilts = false; ///< loaded by its weight alone: the strain of its curve is the tilt of the plate below it [rad]
+  int strength_decimals = 1; ///< of the strength in MPa in tables
+  int duration_rank = 0;     ///< tests of the higher rank last longer; in one rank those of the higher pressure
 
   double stress(const CurveSample& row) const { return sign * row.*channel.value; } ///< positive in its sense [Pa]
   double strain(const CurveSample& row) const { return sign * row.axial_strain; }   ///< the same

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <typeindex>
+#include <vector>
 
 /// Parameters of the laboratory tests, in SI units and radians, tension positive. Default-constructed values are the
 /// defaults of the input.
@@ -17,6 +18,7 @@ struct TestParameters
 {
   unsigned int n_snapshots = 32; ///< states of the grains that are kept, at most
   double platen_friction = 0.0;
+  std::vector<double> gravity;    ///< acceleration of all grains, [dim]; empty: none [m/s²]
   double seating_transits = 10.0; ///< P-wave transits over which the confinement is raised
   double stop_strain_over_peak_strain = 1.6;
   std::optional<double> stop_strain;           ///< stop at this axial strain instead

@@ -29,6 +29,13 @@ bool keeps_its_strength(const TestRecord& record)
   return before > share_of_strength * last && (record.kind.pressure_acts_across || last > share_of_strength * before);
 }
 
+/// Returns whether a body on a tilted plate slides: at rest the tangent of the tilt is the ratio of both stresses.
+bool slides(const TestKind& kind, const CurveSample& row)
+{
+  constexpr double least_lag = 0.01;
+  return kind.tilts && kind.stress(row) < -row.lateral_stress * (std::tan(kind.strain(row)) - least_lag);
+}
+
 PeakWatch watch_of(const TestRecord& record)
 {
   PeakWatch watch(record.kind, record.confining_pressure, record.peak_demands);
@@ -92,8 +99,8 @@ void PeakWatch::add(const CurveSample& row)
   strains.push_back(strain);
   deviators.push_back(deviator);
   lowest_since = std::min(lowest_since, deviator);
-  is_first_peak =
-    is_first_peak || (kind.peak_rule == PeakRule::first_before_a_fall && is_borne() && !is_too_early() && has_fallen());
+  is_first_peak = is_first_peak || slides(kind, row) ||
+                  (kind.peak_rule == PeakRule::first_before_a_fall && is_borne() && !is_too_early() && has_fallen());
   if (deviator <= highest_deviator * (1.0 + round_off) || is_first_peak)
     return;
   highest_deviator = lowest_since = deviator;

@@ -40,7 +40,7 @@ public:
   /// Returns whether a body carries the stress; a smaller one may be that of waves where nothing holds it.
   bool is_borne() const { return highest_deviator > 0.0 && highest_deviator >= wanted.least_stress; }
   bool is_too_early() const { return time_of_highest < wanted.least_time; }
-  bool has_fallen() const { return lowest_since < (1.0 - wanted.least_fall) * highest_deviator; }
+  bool has_fallen() const { return is_first_peak || lowest_since < (1.0 - wanted.least_fall) * highest_deviator; }
   /// Returns whether the curve leads above its highest stress: the straight line through the last tenth of its way
   /// would exceed it by 1 %, before the strain has grown by as much as lies between a peak and the end of a test.
   bool is_rising() const;
@@ -64,7 +64,7 @@ private:
   std::size_t begin_of_level = 0; ///< first row that is nearly as high
   double strain_at_highest = 0.0;
   double time_of_highest = 0.0;
-  bool is_first_peak = false; ///< by the rule of the first peak: nothing after it counts
+  bool is_first_peak = false; ///< by the rule of the first peak, or of a body that slides: nothing after it counts
 };
 
 /// The row of the peak of a finished curve, or the reason why it has none.

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,7 +76,9 @@ struct TestRecord
   /// Growth of the confining pressure per opening of the sheared plane, where it grows [Pa/m].
   std::optional<double> normal_stiffness = std::nullopt;
   std::uint64_t seed = 0;
-  double strain_rate = 0.0;     ///< magnitude; NaN where there is no time [1/s]
+  double strain_rate = 0.0;                                      ///< magnitude; NaN where there is no time [1/s]
+  double stress_rate = std::numeric_limits<double>::quiet_NaN(); ///< under load control [Pa/s]
+  double rate_over_laboratory = std::numeric_limits<double>::quiet_NaN(); ///< where that of a laboratory was wanted
   std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]; the last is 0 in the plane
   SpecimenReport specimen;
   std::vector<CurveSample> curve;

@@ -1,5 +1,7 @@
 #include "laboratory/stop_rule.h"
 
+#include <numbers>
+
 namespace feldspar
 {
 namespace
@@ -24,7 +26,8 @@ bool StopRule::is_met_by(const CurveSample& row, const TestParameters& wanted) c
   const double strain = kind.strain(row);
   // A row that is meant to be there may lack a last bit, which differs between numbers of processes.
   constexpr double but_for_round_off = 1.0 - 1e-9;
-  if (strain >= but_for_round_off * wanted.stop_strain.value_or(largest_axial_strain) || bears_nothing(row, wanted))
+  const double last_strain = kind.tilts ? 0.5 * std::numbers::pi : largest_axial_strain;
+  if (strain >= but_for_round_off * wanted.stop_strain.value_or(last_strain) || bears_nothing(row, wanted))
     return true;
   if (needs_crack && is_whole(row) && !wanted.stop_strain)
     return false;

@@ -36,6 +36,7 @@ struct TestResults
   Figure fracture_energy;
   Figure normal_stress_at_peak;
   Figure dilation_angle;
+  Figure sliding_angle;
   Figure first_cracks_at_pads_share;
   Figure n_fragments;
   Figure largest_fragment_share;
@@ -77,6 +78,7 @@ Figure fracture_toughness(const RisingBranch& branch);
 Figure fracture_energy(const RisingBranch& branch);
 Figure normal_stress_at_peak(const RisingBranch& branch);
 Figure dilation_angle(const RisingBranch& branch);
+Figure sliding_angle(const RisingBranch& branch);
 Figure first_cracks_at_pads_share(const RisingBranch& branch);
 Figure kinetic_to_strain_energy(const RisingBranch& branch);
 Figure unbalanced_force_ratio(const RisingBranch& branch);
@@ -89,6 +91,7 @@ Figure n_fragments(const TestRecord& record);
 Figure largest_fragment_share(const TestRecord& record);
 } // namespace evaluation
 
+inline constexpr const char* no_laboratory_rate = "no rate of a laboratory was asked for";
 inline constexpr const char* without_time = "equilibrium is sought without time";
 inline constexpr const char* without_energies = "its material does not tell its energies";
 
@@ -129,6 +132,8 @@ inline constexpr TestsThatGive sheared_plane{"direct shear", [](const TestRecord
                                                return test.kind.pressure_acts_across ? nullptr
                                                                                      : "the test shears no plane";
                                              }};
+inline constexpr TestsThatGive tilted_plate{
+  "tilt", [](const TestRecord& test) { return test.kind.tilts ? nullptr : "the test tilts no plate"; }};
 inline constexpr TestsThatGive split_disc{"Brazilian", [](const TestRecord& test) {
                                             return test.kind.peak_rule == PeakRule::first_before_a_fall
                                                      ? nullptr
@@ -170,7 +175,16 @@ inline constexpr TestQuantity test_quantities[] = {
   row::number(&TestRecord::confining_pressure, QuantityOf::loading, "confining_pressure_Pa", "confining pressure",
               display::megapascals(), "compression positive"),
   row::number(&TestRecord::strain_rate, QuantityOf::method, "strain_rate_per_s", "strain rate", display::plain(3),
-              "magnitude", NanMeans{without_time}),
+              "magnitude; under load control, of the stress rate over the modulus of the particle contacts",
+              NanMeans{without_time}),
+  row::number(&TestRecord::stress_rate, QuantityOf::method, "stress_rate_Pa_per_s", "stress rate",
+              ShownIn{"MPa/s", mega, 0}, "of the platens under load control", NanMeans{"not under load control"}),
+  row::number(&TestRecord::rate_over_laboratory, QuantityOf::method, "rate_over_laboratory",
+              "rate over that of the laboratory", display::plain(0), "of stress or travel",
+              NanMeans{no_laboratory_rate}),
+  row::number(&RunBookkeeping::steps_at_laboratory_rate, QuantityOf::method, "steps_at_laboratory_rate",
+              "steps at the rate of the laboratory", display::plain(0), "that the loading would take",
+              NanMeans{no_laboratory_rate}),
   row::figure(&TestResults::peak_stress, evaluation::peak_stress, "peak_stress_Pa", "strength", display::megapascals(),
               "at the peak of the curve; of a body with flaws nominal", PageColumn::always, InStudies{"strength"}),
   row::figure(&TestResults::strain_at_peak, evaluation::strain_at_peak, "strain_at_peak", "strain at peak",
@@ -255,6 +269,10 @@ inline constexpr TestQuantity test_quantities[] = {
               display::degrees,
               "of the sheared plane: slope of opening over shear displacement from the strength to the end",
               tests_with::sheared_plane),
+  row::figure(&TestResults::sliding_angle, evaluation::sliding_angle, "sliding_angle_rad",
+              "friction angle on the plate", display::degrees,
+              "arctangent of shear over normal stress where the shear stress is highest", tests_with::tilted_plate,
+              PageColumn::where_given),
   row::figure(&TestResults::first_cracks_at_pads_share, evaluation::first_cracks_at_pads_share,
               "first_cracks_at_pads_share", "first cracks of a disc that is split, share at its pads",
               display::percent(0),

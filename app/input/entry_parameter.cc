@@ -34,6 +34,8 @@ const Dimension& dimension_of(const Measure measure)
       return density;
     case Measure::stiffness:
       return plane_stiffness;
+    case Measure::spring:
+      return spring_stiffness;
     default:
       return rate;
     }

@@ -11,6 +11,8 @@ namespace feldspar
 std::vector<Entry<Input>> test_list_entries();
 Entry<SpecimenParameters> sieve_curve_entry();
 Entry<Input> checkpoint_entry();
+/// Gravity and the laboratory's rate, of all tests.
+std::vector<Entry<TestParameters>> tests_text_entries();
 std::vector<Entry<VariantParameters>> variant_entries();
 /// An entry of several values by its name, Section/Entry; throws InputError for one that cannot vary.
 std::string varied_entry(std::string_view text);

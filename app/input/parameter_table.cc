@@ -56,6 +56,7 @@ std::vector<Parameter> make_parameter_table()
   add("Dynamics", &Input::dynamics, dynamics_entries());
   add_own("Tests", test_list_entries());
   add("Tests", &Input::tests, test_entries());
+  add("Tests", &Input::tests, tests_text_entries());
   add_own("Tests", {checkpoint_entry()});
   add("Variants", &Input::variants, variant_entries());
   add_own("Seeds", {seeds_entry()});

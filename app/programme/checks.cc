@@ -5,11 +5,14 @@
 #include "app/programme/reference_body.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/protocols/tilt.h"
 #include "dem/lab/surroundings.h"
 #include "dem/laws/joint_laws.h"
+#include "laboratory/compression.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace feldspar
@@ -17,6 +20,31 @@ namespace feldspar
 namespace
 {
 [[noreturn]] void refuse(const std::string& what) { throw InputError(what); }
+
+bool lists(const Input& input, const TestKind& kind)
+{
+  return std::ranges::find(input.test_list, kind) != input.test_list.end();
+}
+
+/// Refuses loads that do not fit the body, the tests or each other.
+void check_loads(const Input& input, const Body body)
+{
+  const TestParameters& tests = input.tests;
+  const std::size_t dimension = body == Body::plane_box ? 2 : 3;
+  if (!tests.gravity.empty() && tests.gravity.size() != dimension)
+    refuse(fmt::format("Tests/Gravity = {}: must have {} components, one for each axis of the body",
+                       find_parameter("Tests/Gravity")->write(input), dimension));
+  const auto& own = tests.of<CompressionParameters>();
+  if (lists(input, own_loading.kind) && (own.loading_rate || own.machine_stiffness))
+    refuse(fmt::format("Tests/{}: own_loading follows its table at the rates there; take it out, or own_loading off "
+                       "Tests/List",
+                       own.loading_rate ? "Compression loading rate" : "Machine stiffness"));
+  if (own.machine_stiffness && own.loading_rate && own.loading_rate->of != LoadingRate::Of::travel)
+    refuse(
+      fmt::format("Tests/Compression loading rate = {}: a machine that raises its force has no stiffness; give the "
+                  "rate in mm/min, or set Machine stiffness = none",
+                  own.loading_rate->text));
+}
 } // namespace
 
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check)
@@ -64,6 +92,7 @@ void check_on_body(const Input& input, const Body body)
     if (const std::string objection = objection_to_grains(kind, body); !objection.empty())
       refuse(objection);
   check_body(input, body);
+  check_loads(input, body);
 }
 
 void check_specimen_and_tests(const Input& input)
@@ -73,7 +102,11 @@ void check_specimen_and_tests(const Input& input)
     refuse("Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set Shape = box, or use "
            "feldspar rve");
   if (specimen.specimen_file.empty()) // else it brings its own shape
-    check_on_body(input, body_of(specimen.dimension, specimen.shape));
+    {
+      check_on_body(input, body_of(specimen.dimension, specimen.shape));
+      if (lists(input, tilt.kind))
+        check_tilt(input.tests, specimen.width, specimen.height);
+    }
   const auto& intermediate_stress = input.tests.of<ConfinementParameters>().intermediate_stress;
   for (const double confinement : input.confinements)
     if (any_takes_confining_pressure(input.test_list) && intermediate_stress && *intermediate_stress < confinement)

@@ -28,6 +28,11 @@ inline constexpr Dimension rate{"a rate", "1/s", "0.5 1/s"};
 inline constexpr Dimension duration{"a time", "s", "2 ms"};
 inline constexpr Dimension strain{"a strain", "1", "0.1 %"};
 inline constexpr Dimension force{"a force", "N", "200 kN"};
+inline constexpr Dimension spring_stiffness{"a force per displacement", "N/m", "500 kN/mm"};
+inline constexpr Dimension acceleration{"an acceleration", "m/s^2", "0, -9.81 m/s^2"};
+inline constexpr Dimension stress_rate{"a stress rate", "Pa/s", "0.7 MPa/s"};
+inline constexpr Dimension force_rate{"a force rate", "N/s", "0.5 kN/s"};
+inline constexpr Dimension velocity{"a velocity", "m/s", "0.1 mm/min"};
 
 /// Returns a number in SI as it is. Throws InputError for a size that no rock, body or test has: such numbers overflow or
 /// vanish in products.

@@ -23,7 +23,6 @@ void Dynamics<dim>::transfer(Archive& archive)
   all_of("force", grains.force);
   all_of("couple", grains.couple);
   all_of("applied_force", applied_force);
-  all_of("position_at_start", position_at_start);
   images.transfer(archive, grains);
   groups.transfer(archive);
 

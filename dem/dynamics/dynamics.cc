@@ -159,7 +159,6 @@ void Dynamics<dim>::start()
   check();
   previous_dt = 0.0; // the first kick is half a step
   inverse_inertia = InverseInertia(bodies());
-  position_at_start = bodies().position;
   watch.begin_at(steps);
   started = true;
   const Energies initial = energies();
@@ -304,6 +303,9 @@ double Dynamics<dim>::integrate()
   const double farthest_way =
     move_bodies(bodies(), n_bodies(), inverse_inertia, {previous_dt, dt, parameters.damping, gravity}, grips.freedom(),
                 ledger.damping_work);
+  if (!gravity.isZero(0.0))
+    for (std::size_t i = 0; i < n_bodies(); ++i)
+      ledger.boundary_work += dt * bodies().mass[i] * gravity.dot(at<dim>(bodies().velocity, i));
   groups.carry_members(body.grains, dt);
   return body.is_periodic() || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
 }

@@ -41,7 +41,7 @@ public:
   std::size_t add_wall(const Wall& wall) { return wall_set.add(wall); }
   /// A set of grains that moves as one, without turning; of a rigid group it holds all or none, as most of its grains do.
   std::size_t add_grip(std::vector<std::uint32_t> members, const Vector<dim>& velocity);
-  /// Body acceleration [m/s²]; its work counts as boundary work.
+  /// Body acceleration from the next step on [m/s²]; its work counts as boundary work.
   void set_gravity(const Vector<dim>& acceleration) { gravity = acceleration; }
 
   /// Called within a step too where contacts are looked for, which takes seconds for millions of grains. After what it throws
@@ -122,6 +122,7 @@ private:
   Grains<dim>& bodies() { return groups.empty() ? body.grains : groups.bodies; }
   std::size_t n_bodies() const { return groups.empty() ? images.n_own() : groups.size(); }
   double kinetic_energy(std::uint32_t one_body) const;
+  double squared_unbalanced_force(std::size_t one_body) const;
   bool watch_is_over();
   bool remove_lost_contacts();
   bool regroup_joints();
@@ -152,7 +153,6 @@ private:
   JointGroups<dim> joint_groups;
   ContactWatch<dim> watch;
   EnergyLedger ledger;
-  Components<dim> position_at_start; ///< of the bodies
 
   bool started = false;
   bool contact_made = false;    ///< since the time step was chosen

@@ -57,13 +57,25 @@ Energies Dynamics<dim>::energies() const
   for (std::size_t i = 0; i < n_bodies(); ++i)
     {
       sum.damping += ledger.damping_work[i];
-      sum.boundary_work += grains.mass[i] * gravity.dot(at<dim>(grains.position, i) - at<dim>(position_at_start, i));
       if (grips.holds(i))
         continue;
       for (int c = 0; c < dim; ++c)
         centre(grains.force[c][i] + grains.mass[i] * gravity[c], grains.mass[i], grains.velocity[c][i]);
       for (int c = 0; c < n_rotations<dim>; ++c)
         centre(grains.couple[c][i], grains.moment_of_inertia[i], grains.spin[c][i]);
+    }
+  return sum;
+}
+
+/// Square of the force of contacts, walls and gravity on a body [N²].
+template <int dim>
+double Dynamics<dim>::squared_unbalanced_force(const std::size_t i) const
+{
+  double sum = 0.0;
+  for (int c = 0; c < dim; ++c)
+    {
+      const double force = bodies().force[c][i] + bodies().mass[i] * gravity[c];
+      sum += force * force;
     }
   return sum;
 }
@@ -76,7 +88,7 @@ double Dynamics<dim>::unbalanced_force_ratio() const
   for (std::size_t i = 0; i < n_bodies(); ++i)
     if (!grips.holds(i))
       {
-        unbalanced += std::sqrt(squared_norm<dim>(bodies().force, i));
+        unbalanced += std::sqrt(squared_unbalanced_force(i));
         ++n_free;
       }
   const double carried = mean_contact_force(body, touches);
@@ -88,7 +100,7 @@ double Dynamics<dim>::largest_unbalanced_force_ratio() const
 {
   double largest = 0.0;
   for (std::size_t i = 0; i < n_bodies(); ++i)
-    largest = std::max(largest, squared_norm<dim>(bodies().force, i));
+    largest = std::max(largest, squared_unbalanced_force(i));
   const double carried = mean_contact_force(body, touches);
   return carried > 0.0 ? std::sqrt(largest) / carried : 0.0;
 }
@@ -127,6 +139,7 @@ double Dynamics<dim>::faceless_coordination_number() const
 
 template double Dynamics<2>::kinetic_energy(std::uint32_t) const;
 template Energies Dynamics<2>::energies() const;
+template double Dynamics<2>::squared_unbalanced_force(std::size_t) const;
 template double Dynamics<2>::unbalanced_force_ratio() const;
 template double Dynamics<2>::largest_unbalanced_force_ratio() const;
 template Tensor<2> Dynamics<2>::mean_stress() const;
@@ -136,6 +149,7 @@ template double Dynamics<2>::force_across(double) const;
 template double Dynamics<2>::faceless_coordination_number() const;
 template double Dynamics<3>::kinetic_energy(std::uint32_t) const;
 template Energies Dynamics<3>::energies() const;
+template double Dynamics<3>::squared_unbalanced_force(std::size_t) const;
 template double Dynamics<3>::unbalanced_force_ratio() const;
 template double Dynamics<3>::largest_unbalanced_force_ratio() const;
 template Tensor<3> Dynamics<3>::mean_stress() const;

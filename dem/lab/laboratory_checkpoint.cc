@@ -25,10 +25,9 @@ void LabTest<dim>::transfer(Archive& archive)
   archive.value("n_tension", n_tension);
   archive.value("n_shear", n_shear);
   if (set_up.loading.drive_stage)
-    {
-      archive.value("shortening_at_start", shortening_at_start);
-      stage_walk.transfer(archive);
-    }
+    stage_walk.transfer(archive);
+  if (set_up.loading.shortening)
+    archive.value("shortening_at_start", shortening_at_start);
   if (set_up.loading.opening)
     archive.value("opening_at_start", opening_at_start);
   std::uint32_t has_ended = ended;

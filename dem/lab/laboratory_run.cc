@@ -2,6 +2,7 @@
 
 #include "base/parameter_id.h"
 #include "dem/lab/cracks.h"
+#include "dem/lab/gravity.h"
 #include "dem/lab/seating.h"
 #include "dem/lab/servo.h"
 #include "dem/specimen/fragments.h"
@@ -41,7 +42,7 @@ PeakDemands peak_demands(const Specimen<dim>& body, const TestKind& kind, const 
   const double speed = wave_speed(body);
   const double length = body.size[kind.pressure_acts_across ? 0 : dim - 1]; // to which the strain refers
   const double from_both_ends = 2.0 * body.bulk_density * speed * strain_rate * length;
-  return {.least_stress = wanted.least_peak_stress.value_or(from_both_ends),
+  return {.least_stress = wanted.least_peak_stress.value_or(kind.tilts ? 0.0 : from_both_ends),
           .least_time = wanted.least_transits_to_peak * body.size[dim - 1] / speed,
           .least_fall = wanted.least_fall_after_peak,
           .end_over_peak_strain = wanted.stop_strain_over_peak_strain};
@@ -93,6 +94,8 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const 
   record.seed = tested.seed;
   record.has_servo = bool(set_up.loading.servo_stress);
   record.strain_rate = std::abs(set_up.loading.strain_rate);
+  record.stress_rate = set_up.loading.stress_rate;
+  record.rate_over_laboratory = set_up.loading.rate_over_laboratory;
   record.size = in_space<dim>(tested.size);
   record.specimen = tested.report;
   record.bulk_density = tested.bulk_density;
@@ -104,6 +107,8 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const 
   stop_rule.needs_crack = record.notch.has_value(); // a slender body
   n_broken_segments.assign(tested.grains.size(), 0);
   is_part = grains_of_body(tested);
+  if (!test.protocol.kind.tilts)
+    set_up.dynamics.set_gravity(gravity_of<dim>(parameters));
 }
 
 template <int dim>
@@ -260,9 +265,8 @@ void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
         {
           check();
           if (loading.drive)
-            loading.drive(dynamics);
-          if (loading.drive_against_opening)
-            loading.drive_against_opening(dynamics, loading.opening(dynamics) - opening_at_start);
+            loading.drive(dynamics, {dynamics.time() - time_at_start, axial_strain(),
+                                     loading.opening ? loading.opening(dynamics) - opening_at_start : 0.0});
           step();
         }
       while (std::abs(axial_strain()) < next_strain);
@@ -370,6 +374,9 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
   if (!record.curve.empty()) // of a row that was begun nothing is reported yet
     result.record.cracks.resize(record.curve.back().n_tension_cracks + record.curve.back().n_shear_cracks);
   result.bookkeeping.steps = set_up.dynamics.n_steps();
+  if (!record.curve.empty())
+    result.bookkeeping.steps_at_laboratory_rate =
+      record.rate_over_laboratory * double(record.curve.back().step - record.curve.front().step);
   result.bookkeeping.time_step = set_up.dynamics.time_step();
   result.bookkeeping.wall_time = wall_time;
   result.appearance.snapshots = snapshots;

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,25 +25,35 @@ struct EndStress
   double upper;
 };
 
+/// The way of a test since its strain was zero.
+struct SinceStart
+{
+  double time;         ///< [s]
+  double axial_strain; ///< tension positive
+  double opening;      ///< of the platens, where Loading::opening measures it [m]
+};
+
 /// Loading and measurement of a specimen once its walls or grips stand; keeps no state of its own.
 template <int dim>
 struct Loading
 {
-  double strain_rate = 0.0;                  ///< along the last axis, tension positive [1/s]
-  double sampling_strain = 0.0;              ///< between two rows of the curve
+  double strain_rate = 0.0;     ///< along the last axis, tension positive [1/s]
+  double sampling_strain = 0.0; ///< between two rows of the curve
+  /// Stress rate under load control [Pa/s], and the rate over that of a laboratory where one was wanted; else NaN.
+  double stress_rate = std::numeric_limits<double>::quiet_NaN();
+  double rate_over_laboratory = std::numeric_limits<double>::quiet_NaN();
   double way_to_grains = 0.0;                ///< by which the farthest wall was brought to the specimen [m]
   std::optional<double> intermediate_stress; ///< σ_2, where it is not the confining pressure [Pa]
   std::optional<NotchGeometry> notch;
   std::optional<double> normal_stiffness; ///< that presses back the opening [Pa/m]
   /// Brings the specimen to where the strain is zero, and calls check() at every step; may be empty.
   std::function<void(Dynamics<dim>&, const std::function<void()>& check)> seat;
-  std::function<void(Dynamics<dim>&)> drive; ///< before each step after that; may be empty
-  /// Instead of it where a stiffness presses back the opening since the strain was zero [m].
-  std::function<void(Dynamics<dim>&, double opening)> drive_against_opening;
-  std::function<double(const Dynamics<dim>&)> opening; ///< of the platens since the genesis [m]; with it alone
+  std::function<void(Dynamics<dim>&, const SinceStart&)> drive; ///< before each step after that; may be empty
+  std::function<double(const Dynamics<dim>&)> opening;          ///< of the platens since the genesis [m]; may be empty
   /// Before each step, of a test that follows the stages of a loading table; else empty.
   std::function<void(Dynamics<dim>&, const StageDemand&)> drive_stage;
-  std::function<double(const Dynamics<dim>&)> shortening; ///< of the specimen since its genesis, over its height
+  /// Shortening of the specimen since its genesis, over its height; empty where the strain goes with time, at the strain rate.
+  std::function<double(const Dynamics<dim>&)> shortening;
   std::function<EndStress(const Dynamics<dim>&)> end_stress;
   std::function<double(const Dynamics<dim>&)> servo_stress; ///< on the sides [Pa]; empty where no servo holds it
 };
@@ -134,7 +145,7 @@ private:
   std::uint64_t n_shear = 0;
   std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints
   std::uint64_t rows_between_snapshots = 1;
-  double shortening_at_start = 0.0; ///< of a test that follows stages
-  double opening_at_start = 0.0;    ///< of a test whose normal stress follows the opening [m]
+  double shortening_at_start = 0.0; ///< where the loading measures it
+  double opening_at_start = 0.0;    ///< the same [m]
 };
 } // namespace feldspar

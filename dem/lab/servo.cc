@@ -9,20 +9,24 @@
 
 namespace feldspar
 {
+double servo_speed(const double missing_force, const double stiffness, const double time_step, const double largest,
+                   double& integral)
+{
+  constexpr double integral_share = 0.05;
+  const auto within = [=](const double speed) { return std::clamp(speed, -largest, largest); };
+  const double proportional = stiffness > 0.0 ? within(0.5 * missing_force / (stiffness * time_step)) : largest;
+  integral = within(integral + integral_share * proportional);
+  return within(proportional + integral);
+}
+
 template <int dim>
 void hold_pressure(Dynamics<dim>& dynamics, const std::size_t wall, const double area, const double target,
                    const double largest_speed)
 {
-  constexpr double integral_share = 0.05;
-  const auto within = [=](const double speed) { return std::clamp(speed, -largest_speed, largest_speed); };
-  // Half of the speed that would mend the error in one step.
-  const double stiffness = dynamics.wall_stiffness_in_touch(wall);
-  const double missing_force = target * area - dynamics.wall_force(wall);
-  const double proportional =
-    stiffness > 0.0 ? within(0.5 * missing_force / (stiffness * dynamics.time_step())) : largest_speed;
   Wall& moved = dynamics.wall(wall);
-  moved.servo_integral = within(moved.servo_integral + integral_share * proportional);
-  moved.velocity = moved.side * within(proportional + moved.servo_integral);
+  moved.velocity =
+    moved.side * servo_speed(target * area - dynamics.wall_force(wall), dynamics.wall_stiffness_in_touch(wall),
+                             dynamics.time_step(), largest_speed, moved.servo_integral);
 }
 
 template <int dim>
@@ -34,7 +38,6 @@ double wave_speed(const Specimen<dim>& specimen)
 template <int dim>
 void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const std::function<void()>& check)
 {
-  constexpr double tolerance = 0.005;
   constexpr double most_ramps = 20.0;
   do
     {
@@ -45,7 +48,7 @@ void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const st
         throw ParameterError(ramp.asked_by,
                              fmt::format("the walls cannot hold {:g} MPa on this specimen", ramp.pressure / 1e6));
     }
-  while (dynamics.time() < 1.5 * ramp.duration || ramp.largest_deviation() >= tolerance);
+  while (dynamics.time() < 1.5 * ramp.duration || ramp.largest_deviation() >= ramp.tolerance);
 }
 
 template double wave_speed<2>(const Specimen<2>&);

@@ -8,6 +8,10 @@
 
 namespace feldspar
 {
+/// The speed inwards of a wall that mends half of a missing force [N] in one step, which its stiffness [N/m] resists, plus
+/// an integral of that speed, which grows by 0.05 of it; each within ±`largest` [m/s].
+double servo_speed(double missing_force, double stiffness, double time_step, double largest, double& integral);
+
 /// Moves a wall so that its pressure comes to a target: v = e + I with e = G (P_0 - P), I += 0.05 e, both within
 /// ±largest_speed; docs/theory.md §4.3. The proportional part alone lags behind a specimen that widens steadily.
 template <int dim>
@@ -21,6 +25,7 @@ struct PressureRamp
   std::function<void(double)> hold;          ///< this share of the pressures, for one step
   std::function<double()> largest_deviation; ///< of a wall's pressure from its target, relative
   ParameterId asked_by = parameter_id<&TestCase::confining_pressure>();
+  double tolerance = 0.005; ///< of the largest deviation at the end
 };
 
 /// The speed of a wave along a rod of the specimen's rock, by the modulus of its particle contacts [m/s].
@@ -28,7 +33,7 @@ template <int dim>
 double wave_speed(const Specimen<dim>& specimen);
 
 /// Raises the pressures in proportion to time, so as not to hit the specimen, and goes on until half a ramp more has passed
-/// and all are held within 0.5 %. `check` is called before each step and may throw. Throws InputError where they are not
+/// and all are held within the tolerance. `check` is called before each step and may throw. Throws InputError where they are not
 /// held after 20 ramps.
 template <int dim>
 void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const std::function<void()>& check);

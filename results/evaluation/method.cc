@@ -13,7 +13,7 @@ const char* objection_to_servo(const TestRecord& record)
     return "the confinement follows stages";
   if (record.normal_stiffness)
     return "the normal stress follows the opening";
-  return record.has_servo ? nullptr : "the test has no servo";
+  return record.has_servo && record.confining_pressure > 0.0 ? nullptr : "the test has no servo";
 }
 
 double servo_error(const TestRecord& record, const CurveSample& row)

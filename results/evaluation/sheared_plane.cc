@@ -8,6 +8,11 @@ Figure normal_stress_at_peak(const RisingBranch& branch)
   return known(branch.record.normal_stiffness ? -branch.at_peak().lateral_stress : branch.record.confining_pressure);
 }
 
+Figure sliding_angle(const RisingBranch& branch)
+{
+  return known(std::atan(branch.stress(branch.at_peak()) / -branch.at_peak().lateral_stress));
+}
+
 /// The way of the platen that holds the normal stress is what the work of the walls is more than that of the shear stress:
 /// dW = A (τ du - σ_n dv).
 Figure dilation_angle(const RisingBranch& branch)

@@ -266,6 +266,27 @@ std::string remark_on_flaws(const TestsOfRock& tests)
            : "";
 }
 
+/// A remark that the tests ran faster than in the laboratory; empty where none did.
+std::string remark_on_rate(const TestsOfRock& tests)
+{
+  const auto longest = std::ranges::max_element(tests, {}, [](const FinishedTest* const test) {
+    const double steps = test->bookkeeping.steps_at_laboratory_rate;
+    return std::isnan(steps) ? 0.0 : steps;
+  });
+  if (longest == tests.end() || !((*longest)->record.rate_over_laboratory > 1.0))
+    return "";
+  const TestRecord& record = (*longest)->record;
+  const auto rate = [&](const double faster) {
+    return std::isnan(record.stress_rate) ? fmt::format("{:.3g} 1/s", record.strain_rate / faster)
+                                          : fmt::format("{:.3g} MPa/s", record.stress_rate / faster / 1e6);
+  };
+  return fmt::format(
+    "The rate of the laboratory is {}, that of the run {}, {:.2g} times as fast: at the former a test would "
+    "take up to {:.2g} steps.",
+    rate(record.rate_over_laboratory), rate(1.0), record.rate_over_laboratory,
+    (*longest)->bookkeeping.steps_at_laboratory_rate);
+}
+
 std::string out_of_bounds(const TrustCheck& check)
 {
   return fmt::format("Out of bounds in {} of {} tests: {}; worst {} ({}), bound {}.", check.n_out, check.n_tests,
@@ -316,7 +337,7 @@ std::vector<std::string> shortcomings(const TestsOfRock& tests, const SeriesKind
     for (const std::string& sentence : {shortcoming(*test), remark_on_splitting(*test)})
       if (!sentence.empty())
         sentences.push_back(sentence);
-  for (const std::string& sentence : {remark_on_flaws(tests), remark_on_side_plates(tests)})
+  for (const std::string& sentence : {remark_on_flaws(tests), remark_on_side_plates(tests), remark_on_rate(tests)})
     if (!sentence.empty())
       sentences.push_back(sentence);
   std::set<std::uint64_t> seeds;

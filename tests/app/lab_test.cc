@@ -226,6 +226,51 @@ TEST(Lab, RefusesASurroundingThatItsSpecimenCannotHave)
           "Intermediate stress = 30 MPa: must be at least the least stress, and Confinements has 40 MPa");
 }
 
+TEST(Lab, RefusesLoadsThatDoNotFitTheBodyTheTestsOrEachOther)
+{
+  const TemporaryFolder folder;
+  folder.write("stages.csv", "axial_strain\n1e-3\n");
+  const auto refused = [&](const std::string& tests, const std::string& expected) {
+    folder.write("rock.prm", "subsection Tests\n" + tests + "end\n");
+    for (const char* const command : {"lab rock.prm", "parameters --check rock.prm"})
+      {
+        const auto outcome = run_feldspar(folder.path(), command);
+        EXPECT_EQ(outcome.exit_code, 2) << tests;
+        EXPECT_NE(outcome.error.find(expected), std::string::npos) << outcome.error;
+        EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+      }
+    EXPECT_FALSE(fs::exists(folder.path() / "rock-results-001")) << tests;
+  };
+  refused("  set Gravity = -9.81 m/s^2\n", "must be none, or have a component for each axis");
+  refused("  set Gravity = 0, 0, -9.81 m/s^2\n", "Tests/Gravity = 0, 0, -9.81 m/s^2: must have 2 components");
+  refused("  set List = tilt\n  set Platen friction = 0.3\n", "Tests/Gravity: the weight presses the body of tilt");
+  refused("  set List = tilt\n  set Gravity = 0, -9.81 m/s^2\n", "Tests/Platen friction = 0: must lie in (0, 0.5)");
+  refused("  set Compression loading rate = 0.7 MPa\n", "a rate > 0 of stress, force or travel");
+  refused("  set Compression loading rate = 0.7 MPa/s\n  set Machine stiffness = 500 kN/mm\n",
+          "Tests/Compression loading rate = 0.7 MPa/s: a machine that raises its force has no stiffness");
+  refused("  set List = own_loading\n  set Loading table = stages.csv\n  set Machine stiffness = 500 kN/mm\n",
+          "Tests/Machine stiffness: own_loading follows its table");
+}
+
+TEST(Lab, TellsTheRateOfTheLaboratoryBesideItsOwn)
+{
+  // 0.1 mm/min on 24 mm are 6.94e-5 1/s; at 2/s the loading to a strain of 1e-3 is 28 800 times as fast.
+  const TemporaryFolder folder;
+  folder.write("rock.prm", "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n"
+                           "subsection Tests\n  set List = uniaxial_compression\n  set Stop strain = 1e-3\n"
+                           "  set Compression strain rate = 2 1/s\n  set Compression loading rate = 0.1 mm/min\nend\n");
+  const auto outcome = run_without_pictures(folder.path(), "lab rock.prm --output out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto test = summary(folder.path() / "out")["tests"][0];
+  EXPECT_NEAR(test["rate_over_laboratory"].get<double>(), 28800.0, 1.0);
+  EXPECT_GT(test["steps_at_laboratory_rate"].get<double>(), 28800.0 * 1000.0);
+  EXPECT_TRUE(test["stress_rate_Pa_per_s"].is_null());
+  std::string words = content(folder.path() / "out/log.txt");
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  for (const std::string& text : {words, content(folder.path() / "out/report.html")})
+    EXPECT_NE(text.find("The rate of the laboratory is 6.94e-05 1/s, that of the run 2 1/s"), std::string::npos);
+}
+
 /// Some ninety grains; the programme takes a few seconds.
 const std::string tiny_rock = R"(subsection Specimen
   set Width = 12 mm

@@ -11,6 +11,7 @@
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/protocols/tilt.h"
 #include "dem/lab/surroundings.h"
 #include "laboratory/compression.h"
 #include "laboratory/loading_stages.h"
@@ -124,6 +125,11 @@ subsection Tests
   set Shear strain rate = 0.3 1/s
   set Shear sampling strain = 3e-5
   set Shear normal stiffness = 4 GPa/mm
+  set Tilt rate = 50 1/s
+  set Tilt sampling = 1e-3
+  set Gravity = 0.5, -9.81 m/s^2
+  set Machine stiffness = 300 kN/mm
+  set Compression loading rate = 0.6 mm/min
   set Platen friction = 0.1
   set Seating transits = 12
   set Steps between checkpoints = 500
@@ -406,6 +412,12 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.tests.of<ShearParameters>().strain_rate, 0.3);
   EXPECT_DOUBLE_EQ(input.tests.of<ShearParameters>().normal_stiffness.value(), 4e12);
   EXPECT_EQ(input.tests.of<ShearParameters>().sampling_strain, 3e-5);
+  EXPECT_EQ(input.tests.of<TiltParameters>().strain_rate, 50.0);
+  EXPECT_EQ(input.tests.of<TiltParameters>().sampling_strain, 1e-3);
+  EXPECT_EQ(input.tests.gravity, (std::vector{0.5, -9.81}));
+  EXPECT_DOUBLE_EQ(input.tests.of<CompressionParameters>().machine_stiffness.value(), 3e8);
+  EXPECT_EQ(input.tests.of<CompressionParameters>().loading_rate->of, LoadingRate::Of::travel);
+  EXPECT_DOUBLE_EQ(input.tests.of<CompressionParameters>().loading_rate->value, 1e-5);
   EXPECT_EQ(input.test_list, std::vector{uniaxial_compression.kind});
   EXPECT_EQ(input.tests.of<CompressionParameters>().strain_rate, 0.5);
   EXPECT_EQ(input.tests.of<TensionParameters>().strain_rate, 0.082);

@@ -66,7 +66,7 @@ TEST(TestKinds, AreThoseOfTheManualAndSayWhatATestMust)
 {
   EXPECT_EQ(names(test_kinds()),
             "direct_tension, uniaxial_compression, triaxial_compression, brazilian, three_point_bending, "
-            "semicircular_bending, centre_cracked_plate, direct_shear, own_loading");
+            "semicircular_bending, centre_cracked_plate, direct_shear, own_loading, tilt");
   std::set<std::string_view> all_names;
   for (const LaboratoryProtocol* protocol : laboratory_protocols())
     {

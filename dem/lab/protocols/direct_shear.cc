@@ -70,16 +70,15 @@ SetUpTest<dim> set_up_direct_shear(Specimen<dim> specimen, const double normal_s
     for (const std::size_t end : {lower.low, lower.high})
       state.wall(end).velocity = -0.5 * speed;
   };
-  if (const auto stiffness = own.normal_stiffness)
+  if (own.normal_stiffness)
     {
-      test.loading.normal_stiffness = stiffness;
+      test.loading.normal_stiffness = own.normal_stiffness;
       test.loading.opening = [=](const Dynamics<dim>& state) { return distance(state, platens) - height; };
-      test.loading.drive_against_opening = [=](Dynamics<dim>& state, const double opening) {
-        hold(state, std::max(0.0, normal_stress + *stiffness * opening)); // platens do not pull
-      };
     }
-  else
-    test.loading.drive = [=](Dynamics<dim>& state) { hold(state, normal_stress); };
+  test.loading.drive = [=, stiffness = own.normal_stiffness.value_or(0.0)](Dynamics<dim>& state,
+                                                                           const SinceStart& since) {
+    hold(state, std::max(0.0, normal_stress + stiffness * since.opening)); // platens do not pull
+  };
 
   test.loading.strain_rate = -own.strain_rate;
   test.loading.sampling_strain = own.sampling_strain;

@@ -27,8 +27,8 @@ std::string names_of(const std::function<bool(const LaboratoryProtocol&)>& is_wa
 const std::vector<const LaboratoryProtocol*>& laboratory_protocols()
 {
   static const std::vector<const LaboratoryProtocol*> all{
-    &direct_tension,       &uniaxial_compression, &triaxial_compression, &brazilian,  &three_point_bending,
-    &semicircular_bending, &centre_cracked_plate, &direct_shear,         &own_loading};
+    &direct_tension,       &uniaxial_compression, &triaxial_compression, &brazilian,   &three_point_bending,
+    &semicircular_bending, &centre_cracked_plate, &direct_shear,         &own_loading, &tilt};
   return all;
 }
 

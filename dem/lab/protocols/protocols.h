@@ -31,6 +31,9 @@ extern const LaboratoryProtocol direct_shear;
 /// Platens and side walls that follow a table of stages. docs/theory.md §4.11.
 extern const LaboratoryProtocol own_loading;
 
+/// A body on a rough plate that is tilted until it slides by its weight. docs/theory.md §4.12.
+extern const LaboratoryProtocol tilt;
+
 /// All of them.
 const std::vector<const LaboratoryProtocol*>& laboratory_protocols();
 

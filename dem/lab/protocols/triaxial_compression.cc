@@ -1,5 +1,5 @@
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/platens.h"
+#include "dem/lab/machine.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
@@ -18,21 +18,17 @@ template <int dim>
 SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double confining_pressure,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
-  const auto own = wanted.of<CompressionParameters>();
   SetUpTest<dim> test{Dynamics<dim>(std::move(specimen), dynamics, ZeroForce::as_placed), {}};
   const WallPair ends = add_platens(test, wanted.platen_friction);
   const double height = distance(test.dynamics, ends);
-  const double about = middle(test.dynamics, ends);
-  const double closing_speed = own.strain_rate * height;
-  const double largest_servo_speed = 20.0 * 0.5 * closing_speed;
+  const Machine machine = machine_of(test, ends, wanted.of<CompressionParameters>());
+  const double largest_servo_speed = 20.0 * 0.5 * (machine.strain_rate * height);
   const auto around = surround(test, ends, confining_pressure, wanted);
   const bool membrane = bool(around.press_membrane);
-  // Fitting the membrane anew at every step of the seating would change the ends' area by nothing to speak of.
+  // Fitting the membrane anew at every step would change the ends' area by nothing to speak of.
   const double area_at_rest = membrane ? around.end_area(test.dynamics) : 0.0;
-  const auto seating_area = [=](const Dynamics<dim>& state) {
-    return membrane ? area_at_rest : around.end_area(state);
-  };
-  const Press<dim> end_press{{ends.low, ends.high}, seating_area, confining_pressure};
+  const auto held_area = [=](const Dynamics<dim>& state) { return membrane ? area_at_rest : around.end_area(state); };
+  const Press<dim> end_press{{ends.low, ends.high}, held_area, confining_pressure};
 
   const auto hold = [=](Dynamics<dim>& state, const Press<dim>& press, const double share) {
     const double area = press.area(state);
@@ -69,19 +65,18 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
                          check);
     if (membrane)
       around.press_membrane(state, 1.0);
-    start_steadily(state, -own.strain_rate, about);
-    close(state, ends, closing_speed);
+    start(state, machine);
   };
-  test.loading.drive = [=](Dynamics<dim>& state) {
+  test.loading.drive = [=](Dynamics<dim>& state, const SinceStart& since) {
     for (const auto& side : around.sides)
       hold(state, side, 1.0);
     if (membrane_is_due(state))
       around.press_membrane(state, 1.0);
+    if (!machine.is_rigid())
+      press(state, machine, confining_pressure, held_area(state), since);
   };
 
   test.loading.intermediate_stress = around.intermediate_stress;
-  test.loading.strain_rate = -own.strain_rate;
-  test.loading.sampling_strain = own.sampling_strain;
   test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, ends, around.end_area(state)); };
   if (!membrane)
     test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {

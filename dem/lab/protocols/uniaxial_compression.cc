@@ -1,5 +1,5 @@
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/platens.h"
+#include "dem/lab/machine.h"
 #include "dem/lab/protocols/protocols.h"
 #include "laboratory/compression.h"
 
@@ -13,15 +13,16 @@ template <int dim>
 SetUpTest<dim> set_up_uniaxial_compression(Specimen<dim> specimen, double /*confining_pressure*/,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
-  const auto& own = wanted.of<CompressionParameters>();
   const double area = specimen.volume() / specimen.size[dim - 1];
   SetUpTest<dim> test{Dynamics<dim>(std::move(specimen), dynamics, ZeroForce::as_placed), {}};
   const auto platens = add_platens(test, wanted.platen_friction);
-  start_steadily(test.dynamics, -own.strain_rate, middle(test.dynamics, platens));
-  close(test.dynamics, platens, own.strain_rate * distance(test.dynamics, platens));
+  const Machine machine = machine_of(test, platens, wanted.of<CompressionParameters>());
+  start(test.dynamics, machine);
+  if (!machine.is_rigid())
+    test.loading.drive = [=](Dynamics<dim>& state, const SinceStart& since) {
+      press(state, machine, 0.0, area, since);
+    };
 
-  test.loading.strain_rate = -own.strain_rate;
-  test.loading.sampling_strain = own.sampling_strain;
   test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, platens, area); };
   return test;
 }
