@@ -53,7 +53,7 @@ void press(Dynamics<dim>& dynamics, const Machine& machine, const double pressur
   const double wanted = area * (pressure + machine.stress_rate.value_or(0.0) * since.time) + spring * travel;
   const double missing = wanted - 0.5 * (dynamics.wall_force(low) + dynamics.wall_force(high));
   const Specimen<dim>& body = dynamics.specimen();
-  // That of the body where no grain presses yet, or any more.
+  // Stiffness of the contacts; that of the body where no grain presses yet, or any more.
   const double of_contacts =
     std::max(0.5 * (dynamics.wall_stiffness_in_touch(low) + dynamics.wall_stiffness_in_touch(high)),
              body.particle_contact.modulus * area / machine.height);

@@ -124,7 +124,7 @@ void expect_own_weight_and_sliding(const Specimen<dim>& specimen, const double f
   EXPECT_NEAR(*results.sliding_angle.value, friction_angle, 0.01 * friction_angle);
   EXPECT_NEAR(*results.strain_at_peak.value, friction_angle, 0.01 * friction_angle);
   EXPECT_NEAR(*results.peak_stress.value, weight * std::sin(friction_angle), 0.01 * weight);
-  // What gravity gave is moved, stored, rubbed and damped away.
+  // The work of gravity is moved, stored, rubbed and damped away.
   EXPECT_LT(record.curve.back().energies.imbalance(), 1e-3);
 }
 
@@ -137,7 +137,7 @@ TEST(Tilt, SoItDoesInSpace) { expect_own_weight_and_sliding<3>(small_cylinder(1,
 
 TEST(Gravity, PutsTheWeightOnTheLowerPlatenOfAnyTest)
 {
-  // Of 1e5 m/s², so that it shows beside the waves of the platens: ρ g h = 5.4 MPa.
+  // Gravity of 1e5 m/s², so that it shows beside the waves of the platens: ρ g h = 5.4 MPa.
   TestParameters wanted = on_a_plate<2>(0.0);
   wanted.gravity.back() = -1e5;
   wanted.stop_strain = 1e-3;
