@@ -32,7 +32,7 @@ std::string made_unique(const std::string& name, const char* pattern, std::set<s
 }
 
 /// Labels are titles of runs, or names of folders and files, which may be anything: as they are shown, on one line and not
-/// long. They tell series apart; the same ones are numbered, and a series alone is named by its kind. So are the names of measured curves, by which their pictures are called: files
+/// long. They tell series apart; the same ones are numbered. The key of a series alone is its kind. So are the names of measured curves, by which their pictures are called: files
 /// of several folders may have one name, or that of a test of the model.
 std::vector<Series> with_labels_to_show(std::vector<Series> all)
 {
@@ -44,11 +44,9 @@ std::vector<Series> with_labels_to_show(std::vector<Series> all)
       // A variant is told by its entries.
       const std::string title = series.made_by.label_of(input_entries::report_title);
       const bool is_titled = !title.empty() && !series.tests.empty() && series.tests.front().variant.empty();
-      const bool is_alone = all.size() == 1 && series.kind != SeriesKind::laboratory_curve;
-      const std::string label = is_titled  ? title
-                                : is_alone ? series.kind == SeriesKind::specimens ? "specimens" : "sample"
-                                           : series.label;
-      series.label = made_unique(excerpt(label, most_characters), "{} ({})", labels);
+      series.label = made_unique(excerpt(is_titled ? title : series.label, most_characters), "{} ({})", labels);
+      if (all.size() == 1 && !is_titled && series.kind != SeriesKind::laboratory_curve)
+        series.key_if_alone = series.kind == SeriesKind::specimens ? "specimens" : "sample";
       if (series.kind != SeriesKind::laboratory_curve)
         for (const auto& test : series.tests)
           names.insert(test.name);

@@ -48,7 +48,7 @@ struct EnvelopePlot
 
   void add_points(const Series& series, const std::size_t n)
   {
-    std::string label = series.label;
+    std::string label = series.key();
     const std::vector<ChartPoint> pressed = strength_points(series, false);
     const std::vector<ChartPoint> pulled = strength_points(series, true);
     const auto scatters = [](const ChartPoint& point) { return point[2] < point[3]; };
@@ -72,7 +72,7 @@ struct EnvelopePlot
   /// The residual strengths: marks of the same form, open, along a thin line.
   void add_residual(const Series& series, const std::size_t n)
   {
-    ChartSeries line{.label = series.label + ": residual", .colour = colour(series, n), .width = 1.2, .dashes = 3};
+    ChartSeries line{.label = series.key() + ": residual", .colour = colour(series, n), .width = 1.2, .dashes = 3};
     for (const auto& point : residual_points(series))
       line.points.push_back({point.sigma_3 / mega, point.sigma_1 / mega, (point.sigma_1 - point.deviation) / mega,
                              (point.sigma_1 + point.deviation) / mega});

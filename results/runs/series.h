@@ -24,6 +24,9 @@ struct Series
   Provenance made_by;
   std::vector<FinishedTest> tests;
   std::vector<std::string> problems; ///< what of it could not be had and why, each in a sentence
+  std::string key_if_alone = {};     ///< in the keys of pictures, where no other series is shown; empty: the label
+
+  const std::string& key() const { return key_if_alone.empty() ? label : key_if_alone; }
 };
 
 inline bool any_has_flaws(const std::vector<Series>& all)

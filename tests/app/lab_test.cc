@@ -232,7 +232,7 @@ TEST(Lab, RefusesLoadsThatDoNotFitTheBodyTheTestsOrEachOther)
   folder.write("stages.csv", "axial_strain\n1e-3\n");
   const auto refused = [&](const std::string& tests, const std::string& expected) {
     folder.write("rock.prm", "subsection Tests\n" + tests + "end\n");
-    for (const char* const command : {"lab rock.prm", "parameters --check rock.prm"})
+    for (const char* const command : {"lab rock.prm", "parameters --check rock.prm --for lab"})
       {
         const auto outcome = run_feldspar(folder.path(), command);
         EXPECT_EQ(outcome.exit_code, 2) << tests;
@@ -416,15 +416,17 @@ end
     for (const std::string& name : names)
       EXPECT_GT(fs::file_size(out / "figures" / (name + ".png")), 10'000u) << name;
   };
-  expect_pictures({"direct_tension_seed_1_cracks", "triaxial_compression_10_MPa_seed_1_cracks"});
+  expect_pictures({"direct_tension_seed_1_cracks", "direct_tension_seed_1_fragments",
+                   "triaxial_compression_10_MPa_seed_1_cracks"});
   EXPECT_EQ(content(out / "report.html").find("class=\"absent\""), std::string::npos);
-  // Without Chromium the viewer shows the cracks in the place of their pictures.
+  // Without Chromium the viewer shows cracks and fragments in the place of their pictures.
   fs::remove_all(out / "figures");
   fs::create_directory(folder.path() / "bin");
   fs::create_symlink("/usr/bin/gnuplot", folder.path() / "bin/gnuplot");
   ASSERT_EQ(run_feldspar(folder.path(), "report out", "PATH='" + (folder.path() / "bin").string() + "'").exit_code, 0);
-  expect_pictures({"direct_tension_seed_1_fragments"});
-  EXPECT_FALSE(fs::exists(out / "figures/direct_tension_seed_1_cracks.png"));
+  expect_pictures({"direct_tension_seed_1_stress_strain"});
+  for (const std::string of_body : {"cracks", "fragments"})
+    EXPECT_FALSE(fs::exists(out / "figures" / ("direct_tension_seed_1_" + of_body + ".png"))) << of_body;
   const std::string page = content(out / "report.html");
   EXPECT_NE(page.find("<noscript><p class=\"absent\""), std::string::npos);
   EXPECT_EQ(page.find("\n<p class=\"absent\""), std::string::npos);

@@ -1439,7 +1439,7 @@ TEST(Input, ClumpsAreTestedByWhatSaysThatItTakesThem)
         {
           EXPECT_NE(std::string(error.what()).find("takes no clumps; take it out"), std::string::npos) << error.what();
         }
-  EXPECT_EQ(n_taken, 3u);
+  EXPECT_EQ(n_taken, 4u);
 }
 
 TEST(Input, PlacesAJointMapAndReadsItsLayers)

@@ -136,7 +136,7 @@ TEST(TestKinds, OfANameOnlyRunOnNoFiniteElementsUnderNoPressureAndGiveNoElasticC
   EXPECT_EQ(objection_to_grains(three_point_bending.kind, Body::box), "");
   EXPECT_EQ(objection_to_grains(three_point_bending.kind, Body::cylinder),
             "Tests/List: three_point_bending: is not made on cylinders of spheres; tests that are: direct_tension, "
-            "uniaxial_compression, triaxial_compression, brazilian, semicircular_bending, own_loading");
+            "uniaxial_compression, triaxial_compression, brazilian, semicircular_bending, own_loading, tilt");
 
   EXPECT_FALSE(any_takes_confining_pressure({torsion, direct_tension.kind}));
   EXPECT_EQ(test_cases({torsion}, {5e6, 10e6}).size(), 1u);

@@ -116,7 +116,7 @@ Pictures stress_picture(const SameTests& same)
   for (const auto& of : same)
     {
       const std::string beginning =
-        same.size() > 1 || of.group.tests.size() > 1 || !of.counts_cracks() ? of.series->label : std::string();
+        same.size() > 1 || of.group.tests.size() > 1 || !of.counts_cracks() ? of.series->key() : std::string();
       const auto label = [&](const std::string& ending) {
         return beginning.empty() ? ending : is_uniform ? beginning + ", " + ending : beginning;
       };
