@@ -13,7 +13,13 @@ Machine machine_of(SetUpTest<dim>& test, const WallPair& platens, const Compress
   const double height = distance(test.dynamics, platens);
   const double area = body.volume() / body.size[dim - 1];
   const double modulus = body.particle_contact.modulus; // about that of the body
-  Machine machine{platens, height, wanted.strain_rate, wanted.strain_rate, wanted.machine_stiffness, std::nullopt};
+  Machine machine{platens,
+                  height,
+                  middle(test.dynamics, platens),
+                  wanted.strain_rate,
+                  wanted.strain_rate,
+                  wanted.machine_stiffness,
+                  std::nullopt};
   if (const auto& laboratory = wanted.loading_rate)
     {
       const bool is_travel = laboratory->of == LoadingRate::Of::travel;
@@ -36,7 +42,7 @@ Machine machine_of(SetUpTest<dim>& test, const WallPair& platens, const Compress
 template <int dim>
 void start(Dynamics<dim>& dynamics, const Machine& machine)
 {
-  start_steadily(dynamics, -machine.strain_rate_at_start, middle(dynamics, machine.platens));
+  start_steadily(dynamics, -machine.strain_rate_at_start, machine.middle);
   close(dynamics, machine.platens, machine.strain_rate_at_start * machine.height);
   dynamics.wall(machine.platens.low).servo_integral = 0.5 * machine.strain_rate_at_start * machine.height;
 }

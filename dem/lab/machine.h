@@ -13,6 +13,7 @@ struct Machine
 {
   WallPair platens;
   double height;                     ///< between them when nothing has moved [m]
+  double middle;                     ///< the same of the place half-way between them [m]
   double strain_rate;                ///< of the crosshead over the height [1/s]
   double strain_rate_at_start;       ///< with which the specimen is set off [1/s]
   std::optional<double> stiffness;   ///< of the spring [N/m]

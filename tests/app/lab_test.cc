@@ -416,8 +416,8 @@ end
     for (const std::string& name : names)
       EXPECT_GT(fs::file_size(out / "figures" / (name + ".png")), 10'000u) << name;
   };
-  expect_pictures({"direct_tension_seed_1_cracks", "direct_tension_seed_1_fragments",
-                   "triaxial_compression_10_MPa_seed_1_cracks"});
+  expect_pictures(
+    {"direct_tension_seed_1_cracks", "direct_tension_seed_1_fragments", "triaxial_compression_10_MPa_seed_1_cracks"});
   EXPECT_EQ(content(out / "report.html").find("class=\"absent\""), std::string::npos);
   // Without Chromium the viewer shows cracks and fragments in the place of their pictures.
   fs::remove_all(out / "figures");
