@@ -1,6 +1,9 @@
 #include "dem/lab/machine.h"
 
+#include "base/parameter_id.h"
 #include "dem/lab/servo.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -30,6 +33,13 @@ Machine machine_of(SetUpTest<dim>& test, const WallPair& platens, const Compress
         test.loading.stress_rate = *(machine.stress_rate = modulus * machine.strain_rate);
       test.loading.rate_over_laboratory = machine.strain_rate / strain_rate;
     }
+  constexpr double softest = 1e-3; // of the body's: the crosshead travels, and the run takes, a thousand times as far
+  if (const double of_body = modulus * area / height; machine.stiffness && *machine.stiffness < softest * of_body)
+    throw ParameterError(
+      parameter_id<&CompressionParameters::machine_stiffness>(), fmt::format("{:g} kN/mm", *machine.stiffness / 1e6),
+      fmt::format("a machine so much softer than the body, of some {:.3g} kN/mm, would not end; give at "
+                  "least {:.3g} kN/mm",
+                  of_body / 1e6, softest * of_body / 1e6));
   if (machine.stiffness)
     machine.strain_rate_at_start *= *machine.stiffness / (*machine.stiffness + modulus * area / height);
   test.loading.strain_rate = -machine.strain_rate;

@@ -46,7 +46,9 @@ void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const st
       dynamics.step();
       if (dynamics.time() > most_ramps * ramp.duration)
         throw ParameterError(ramp.asked_by,
-                             fmt::format("the walls cannot hold {:g} MPa on this specimen", ramp.pressure / 1e6));
+                             ramp.failure.empty()
+                               ? fmt::format("the walls cannot hold {:g} MPa on this specimen", ramp.pressure / 1e6)
+                               : ramp.failure);
     }
   while (dynamics.time() < 1.5 * ramp.duration || ramp.largest_deviation() >= ramp.tolerance);
 }

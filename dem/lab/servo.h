@@ -5,6 +5,7 @@
 #include "laboratory/kinds.h"
 
 #include <functional>
+#include <string>
 
 namespace feldspar
 {
@@ -26,6 +27,7 @@ struct PressureRamp
   std::function<double()> largest_deviation; ///< of a wall's pressure from its target, relative
   ParameterId asked_by = parameter_id<&TestCase::confining_pressure>();
   double tolerance = 0.005; ///< of the largest deviation at the end
+  std::string failure = {}; ///< the error where that is not reached; empty: of walls that cannot hold the pressure
 };
 
 /// The speed of a wave along a rod of the specimen's rock, by the modulus of its particle contacts [m/s].

@@ -244,7 +244,7 @@ TEST(Lab, RefusesLoadsThatDoNotFitTheBodyTheTestsOrEachOther)
   refused("  set Gravity = -9.81 m/s^2\n", "must be none, or have a component for each axis");
   refused("  set Gravity = 0, 0, -9.81 m/s^2\n", "Tests/Gravity = 0, 0, -9.81 m/s^2: must have 2 components");
   refused("  set List = tilt\n  set Platen friction = 0.3\n", "Tests/Gravity: the weight presses the body of tilt");
-  refused("  set List = tilt\n  set Gravity = 0, -9.81 m/s^2\n", "Tests/Platen friction = 0: must lie in (0, 0.5)");
+  refused("  set List = tilt\n  set Gravity = 0, -9.81 m/s^2\n", "Tests/Platen friction = 0: must lie in (0, 0.25]");
   refused("  set Compression loading rate = 0.7 MPa\n", "a rate > 0 of stress, force or travel");
   refused("  set Compression loading rate = 0.7 MPa/s\n  set Machine stiffness = 500 kN/mm\n",
           "Tests/Compression loading rate = 0.7 MPa/s: a machine that raises its force has no stiffness");

@@ -23,10 +23,13 @@ std::vector<Entry<TestParameters>> tilt_entries()
 {
   using P = TiltParameters;
   using namespace tests_flags;
-  return within_tests<P>({entry::quantity("Tilt rate", &P::strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                                          "of the angle of the plate below the body of tilt, in radians", of_grains),
-                          entry::number("Tilt sampling", &P::sampling_strain, range_of_sampling_strain,
-                                        "tilt between two rows of the curve, in radians", of_grains)});
+  return within_tests<P>(
+    {entry::quantity("Tilt rate", &P::strain_rate, Measure::rate, "1/s", {'(', 0.0, 200.0, ']'},
+                     "of the angle of the plate below the body of tilt, in radians; faster, the body lags behind the "
+                     "plate",
+                     of_grains),
+     entry::number("Tilt sampling", &P::sampling_strain, range_of_sampling_strain,
+                   "tilt between two rows of the curve, in radians", of_grains)});
 }
 
 template <int dim>
@@ -49,7 +52,8 @@ SetUpTest<dim> set_up_tilt(Specimen<dim> specimen, double /*confining_pressure*/
       {weight / area, wanted.seating_transits * height / wave_speed(state.specimen()),
        [&](const double share) { state.set_gravity(share * gravity); },
        [&] { return std::max(std::abs(state.wall_force(plate) / weight - 1.0), state.unbalanced_force_ratio()); },
-       parameter_id<&TestParameters::gravity>(), 5e-4},
+       parameter_id<&TestParameters::gravity>(), 5e-4,
+       "the body finds no rest on its lowest grains; take another seed, or a wider body"},
       check);
   };
   // The plate stays and gravity turns: the same motion, without the tiny inertia of the turning.
@@ -79,11 +83,15 @@ void check_tilt(const TestParameters& wanted, const double width, const double h
       parameter_id<&TestParameters::gravity>(),
       "the weight presses the body of tilt on its plate: give 0 and a negative last component, such as "
       "-9.81 m/s^2");
-  if (!(wanted.platen_friction > 0.0 && wanted.platen_friction * height < width))
-    throw ParameterError(parameter_id<&TestParameters::platen_friction>(), fmt::format("{:g}", wanted.platen_friction),
-                         fmt::format("must lie in (0, {:.3g}), width over height, for tilt: without friction the body "
-                                     "slides at once, with more it topples first",
-                                     width / height));
+  // A body stands on its lowest grains, between which its base is narrower than the body: bodies up to width over height
+  // topple before they slide.
+  const double highest = 0.5 * width / height;
+  if (!(wanted.platen_friction > 0.0 && wanted.platen_friction <= highest))
+    throw ParameterError(
+      parameter_id<&TestParameters::platen_friction>(), fmt::format("{:g}", wanted.platen_friction),
+      fmt::format("must lie in (0, {:.3g}], half of width over height, for tilt: without friction the "
+                  "body slides at once, with more it may topple on its lowest grains first",
+                  highest));
 }
 
 constinit const LaboratoryProtocol tilt = complete({
