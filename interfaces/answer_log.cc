@@ -20,7 +20,6 @@ namespace
 constexpr double mark[6] = {70.0, 69.0, 76.0, 68.0, 83.0, 80.0}; // FELDSP
 
 std::uint64_t key_of(const PointName name) { return (std::uint64_t(name.element) << 32U) | name.point; }
-
 } // namespace
 
 // Both may be sums of the same strains by other ways.
@@ -39,26 +38,26 @@ bool is_same_strain(const std::span<const double> one, const std::span<const dou
   return apart <= round_off * largest;
 }
 
-AnswerLog::AnswerLog(std::string its_file, const std::uint64_t identity, const bool goes_on)
+AnswerLog::AnswerLog(std::string its_file, const std::uint64_t identity, const bool is_needed)
   : file(std::move(its_file))
-  , descriptor(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | (goes_on ? 0 : O_TRUNC), 0644))
+  , descriptor(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644))
   , pieces(most_pieces)
 {
-  struct stat about
-  {
-  };
-  if (descriptor < 0 || fstat(descriptor, &about) != 0)
-    throw Error(file + ": cannot be written; it keeps what a restart needs");
   AnswerRecord head{{}, identity, {}};
   std::copy(std::begin(mark), std::end(mark), head.strain);
-  if (about.st_size == 0 && goes_on)
+  AnswerRecord found{};
+  const bool is_there = pread(descriptor, &found, sizeof found, 0) > 0;
+  const bool is_own = std::memcmp(&found, &head, sizeof head) == 0;
+  if (is_needed && !is_there)
     throw Error(file +
                 ": is missing; a restarted job needs the file .feldspar of the job that it goes on with, under its own "
                 "name");
-  if (about.st_size == 0)
-    at(0) = head;
-  else if (std::memcmp(&at(0), &head, sizeof head) != 0)
+  if (is_needed && !is_own)
     throw Error(file + ": is of another input, mode or version of Feldspar than this job");
+  struct stat about = {};
+  if ((!is_own && ftruncate(descriptor, 0) != 0) || fstat(descriptor, &about) != 0)
+    throw Error(file + ": cannot be written; it keeps what a restart needs");
+  at(0) = head;
   // The last piece of a killed job ends with zeros.
   const AnswerRecord none{};
   for (std::uint64_t n = std::uint64_t(about.st_size) / sizeof none; n > 1 && n_records == 0; --n)

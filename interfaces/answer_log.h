@@ -38,9 +38,10 @@ struct AnswerRecord
 class AnswerLog
 {
 public:
-  /// Begins a file, or goes on with that of an earlier job. identity: of program, input and mode. Throws Error where the file
-  /// cannot be written, or is of other ones.
-  AnswerLog(std::string file, std::uint64_t identity, bool goes_on);
+  /// Goes on with a file that is there: the first point that a restarted job asks may be at rest. identity: of program, input
+  /// and mode. A file of other ones is begun anew, unless a restart needs it. Throws Error where a file that is needed is
+  /// missing or another's, or where it cannot be written.
+  AnswerLog(std::string file, std::uint64_t identity, bool is_needed);
   AnswerLog(const AnswerLog&) = delete;
   AnswerLog& operator=(const AnswerLog&) = delete;
   ~AnswerLog();

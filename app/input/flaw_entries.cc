@@ -419,9 +419,9 @@ std::vector<Entry<Input>> flaw_entries()
          input.flaws.text = text == none ? "" : joined(words_of(text), 0, words_of(text).size());
        },
        [](const Input& input) { return input.flaws.text.empty() ? std::string(none) : input.flaws.text; }},
-     "what is put into the finished specimen, in any number. Openings: `hole centre 25, 50 mm radius 5 mm`, with "
-     "`semi-axes 5, 3 mm angle 30 deg` or `corners 20, 40, 30, 40, 25, 50 mm` in place of the radius, and `slot from 25, 0 mm "
-     "to 25, 12 mm width 2 mm`. Unbonded joints: `closed flaw centre 25, 50 mm length 12 mm angle 45 deg`, or with `from` and "
+     "what is put into the finished specimen, in any number. A hole is `hole centre 25, 50 mm radius 5 mm`. "
+     "`semi-axes 5, 3 mm angle 30 deg` may take the place of the radius, and `corners 20, 40, 30, 40, 25, 50 mm` that of both. A "
+     "slot is `slot from 25, 0 mm to 25, 12 mm width 2 mm`. Unbonded joints: `closed flaw centre 25, 50 mm length 12 mm angle 45 deg`, or with `from` and "
      "`to`, or `points`. Many of them: `joint set angle 30 deg spacing 10 mm persistence 0.7 trace-length 8 mm seed 1`. In three "
      "dimensions all these run through the depth. There are also `sphere centre 25, 25, 50 mm radius 5 mm` and `disc flaw "
      "centre 25, 25, 50 mm radius 6 mm dip 45 deg dip-direction 0 deg`. A `disc set dip 60 deg dip-direction 30 deg fisher 20 "

@@ -29,6 +29,9 @@ struct Series
   const std::string& key() const { return key_if_alone.empty() ? label : key_if_alone; }
 };
 
+/// Tests of one rock, which outlive it.
+using TestsOfRock = std::vector<const FinishedTest*>;
+
 inline bool any_has_flaws(const std::vector<Series>& all)
 {
   return std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); });

@@ -41,9 +41,6 @@ struct TrustCheck
   std::string worst_test;
 };
 
-/// Tests of one rock, which outlive it.
-using TestsOfRock = std::vector<const FinishedTest*>;
-
 /// Energy balance, quasi-static evidence, servo, resolution, packing, elasticity; nothing for what was measured on rock.
 std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, SeriesKind kind);
 std::vector<TrustCheck> trust_checks(const Series& series);

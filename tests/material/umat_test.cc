@@ -133,6 +133,7 @@ TEST_F(Umat, GivesTheSameBitsForThreadsCutsAndRestarts)
       // From half way, by the file of a job that went on, with cuts, and of one that ended there.
       EXPECT_EQ(called(folder, "BEISHAN " + mode + " 21 40 40 2"), rows_from(rows, 21));
       called(folder, "BEISHAN " + mode + " 1 20 40 2");
+      called(folder, "BEISHAN " + mode + " 1 5 40 1"); // begun anew beside it: the file keeps what a restart needs
       EXPECT_EQ(called(folder, "BEISHAN " + mode + " 21 40 40 1"), rows_from(rows, 21));
     }
 }
