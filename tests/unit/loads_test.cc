@@ -252,10 +252,11 @@ TEST(Loads, AreTakenUpAgainToTheSameBits)
   TestParameters by_spring = quick_compression();
   by_spring.stop_strain = 1e-3;
   by_spring.of<CompressionParameters>().machine_stiffness = 30e9;
-  for (const auto& [test, wanted] :
+  for (const std::pair<LaboratoryCase, TestParameters>& test :
        {std::pair(LaboratoryCase{tilt}, by_weight), {confined, by_load}, {uniaxial, by_spring}})
     {
-      const auto [whole, broken] = whole_and_taken_up([&] { return LabTest<2>(test, small_specimen(), wanted, {}); });
+      const auto [whole, broken] =
+        whole_and_taken_up([&] { return LabTest<2>(test.first, small_specimen(), test.second, {}); });
       ASSERT_GT(whole.curve().size(), 10u);
       ASSERT_EQ(whole.curve().size(), broken.curve().size());
       for (std::size_t k = 0; k < whole.curve().size(); ++k)
