@@ -18,8 +18,6 @@ namespace feldspar::interfaces
 namespace
 {
 constexpr double mark[6] = {70.0, 69.0, 76.0, 68.0, 83.0, 80.0}; // FELDSP
-
-std::uint64_t key_of(const PointName name) { return (std::uint64_t(name.element) << 32U) | name.point; }
 } // namespace
 
 // Both may be sums of the same strains by other ways.
@@ -64,7 +62,7 @@ AnswerLog::AnswerLog(std::string its_file, const std::uint64_t identity, const b
     if (std::memcmp(&at(n - 1), &none, sizeof none) != 0)
       n_records = n - 1;
   for (std::uint64_t token = 1; token <= n_records; ++token)
-    earlier[key_of(at(token).name)].push_back(token);
+    earlier[at(token).name.number()].push_back(token);
 }
 
 AnswerLog::~AnswerLog()
@@ -87,9 +85,10 @@ AnswerRecord& AnswerLog::at(const std::uint64_t place)
           constexpr std::uint64_t size = records_of_piece * sizeof(AnswerRecord);
           const auto begin = off_t(place / records_of_piece * size);
           // Room that is not there would end the job at the first write, without a word.
-          void* const memory = posix_fallocate(descriptor, begin, off_t(size)) == 0
-                                 ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, begin)
-                                 : MAP_FAILED;
+          void* const memory =
+            posix_fallocate(descriptor, begin, off_t(size)) == 0
+              ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, descriptor, begin)
+              : MAP_FAILED;
           if (memory == MAP_FAILED)
             throw Error(file + ": cannot be written: no space is left");
           piece.store(static_cast<AnswerRecord*>(memory), std::memory_order_release);
@@ -123,7 +122,7 @@ std::vector<std::uint64_t> AnswerLog::way_to(std::uint64_t token)
 
 std::vector<std::uint64_t> AnswerLog::way_to(const PointName name, const std::span<const double> strain)
 {
-  if (const auto known = earlier.find(key_of(name)); known != earlier.end())
+  if (const auto known = earlier.find(name.number()); known != earlier.end())
     for (auto token = known->second.rbegin(); token != known->second.rend(); ++token)
       if (is_same_strain(strain, (*this)[*token].strain))
         return way_to(*token);

@@ -19,7 +19,7 @@ struct PointName
   std::uint32_t element;
   std::uint32_t point;
 
-  bool operator==(const PointName&) const = default;
+  std::uint64_t number() const { return (std::uint64_t(element) << 32U) | point; }
 };
 
 /// Returns whether two strains differ by round-off alone; an empty one is that of no point.

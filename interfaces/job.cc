@@ -16,13 +16,4 @@ std::string input_file_of(const std::string& material)
         return name + ending;
   throw Error("material " + material + ": there is no input " + small + ".prm or .json in the folder of the job");
 }
-
-std::array<double, n_state_variables> state_variables_of(const Answer& answer)
-{
-  const Damage& damage = answer.damage;
-  std::array<double, n_state_variables> values{double(answer.token), damage.broken_share, damage.broken_in_shear_share,
-                                               damage.dissipation, damage.crack_density};
-  std::ranges::copy(damage.crack_orientation, values.begin() + 5);
-  return values;
-}
 } // namespace feldspar::interfaces

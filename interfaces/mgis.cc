@@ -71,7 +71,7 @@ int integrate(BehaviourDataView& data)
     }
   const bool wants_tangent = std::abs(data.K[0] >= 50.0 ? data.K[0] - 100.0 : data.K[0]) > 0.5;
   const PointName name{0, std::uint32_t(data.s1.material_properties[0])};
-  const Answer answer = all.respond(name, std::uint64_t(data.s0.internal_state_variables[0]), before, strain);
+  const Answer& answer = all.respond(name, std::uint64_t(data.s0.internal_state_variables[0]), before, strain);
   if (!answer.in_equilibrium)
     {
       *data.rdt = 0.25;
@@ -83,8 +83,7 @@ int integrate(BehaviourDataView& data)
       for (std::size_t b = 0; b < 6 && wants_tangent; ++b)
         data.K[6 * places[a] + places[b]] = answer.tangent[6 * a + b] * shear_of(a) * shear_of(b);
     }
-  const auto fields = state_variables_of(answer);
-  std::copy(fields.begin(), fields.end(), data.s1.internal_state_variables);
+  std::ranges::copy(answer.states, data.s1.internal_state_variables);
   return 1;
 }
 } // namespace

@@ -15,8 +15,6 @@ std::uint64_t mixed(std::uint64_t x)
   return x ^ (x >> 31U);
 }
 
-std::uint64_t number_of(const PointName name) { return (std::uint64_t(name.element) << 32U) | name.point; }
-
 /// Returns a number of version, input and mode, which a log and its job have in common.
 std::uint64_t identity_of(const Input& input, const Breaking breaking)
 {
@@ -47,11 +45,24 @@ Points::Points(const std::string& input_file, std::string its_log, const Breakin
   const std::uint64_t n = std::stoull(input.get("Sample/Realisations"));
   for (std::uint64_t k = 0; k < n; ++k)
     rocks.emplace_back(Specimen(input, seed * n + k), input);
+  n_components = rocks.front().dimension() == 2 ? 3 : 6;
 }
 
 Points::Point Points::at_rest(const PointName name) const
 {
-  return {.accepted = rocks[mixed(seed ^ mixed(number_of(name))) % rocks.size()]};
+  Point point{.accepted = rocks[mixed(seed ^ mixed(name.number())) % rocks.size()]};
+  tell_damage(point);
+  return point;
+}
+
+void Points::tell_damage(Point& point)
+{
+  if (point.accepted.is_intact())
+    return;
+  const Damage damage = point.accepted.damage();
+  point.answer.states = {0.0, damage.broken_share, damage.broken_in_shear_share, damage.dissipation,
+                         damage.crack_density};
+  std::ranges::copy(damage.crack_orientation, point.answer.states.begin() + 5);
 }
 
 Points::Point& Points::point_of(const PointName name, const bool is_restarted)
@@ -59,24 +70,35 @@ Points::Point& Points::point_of(const PointName name, const bool is_restarted)
   const std::lock_guard lock(of_points);
   if (!log)
     log = std::make_unique<AnswerLog>(log_file, identity_of(input, breaking), is_restarted);
-  if (name.element >= points.size())
-    points.resize(name.element + 1);
-  auto& of_element = points[name.element];
-  if (name.point >= of_element.size())
-    of_element.resize(name.point + 1);
-  if (!of_element[name.point])
-    of_element[name.point] = std::make_unique<Point>(at_rest(name));
-  return *of_element[name.point];
+  const auto known = points.find(name.number());
+  return known != points.end() ? known->second : points.emplace(name.number(), at_rest(name)).first->second;
+}
+
+void Points::attempt(Point& point, const std::span<const double> strain) const
+{
+  Answer& answer = point.answer;
+  Trial trial = breaking == Breaking::lagged ? point.accepted.trial(strain, true) : point.accepted.relax(strain, true);
+  answer.in_equilibrium = trial.in_equilibrium();
+  std::ranges::copy(answer.in_equilibrium ? trial.stress() : point.accepted.stress(), answer.stress.begin());
+  std::ranges::copy(answer.in_equilibrium ? trial.tangent() : point.accepted.stiffness(), answer.tangent.begin());
+  answer.states[0] = double(point.accepted_token);
+  point.tried.reset();
+  if (!answer.in_equilibrium)
+    return;
+  point.tried = std::move(trial);
+  std::ranges::copy(strain, point.tried_strain.begin());
 }
 
 void Points::accept_tried(Point& point) const
 {
   point.accepted.accept(*point.tried);
   if (breaking == Breaking::lagged)
-    if (const Trial broken = point.accepted.relax(point.tried_strain); broken.n_breaks() > 0)
+    if (const Trial broken = point.accepted.relax(std::span(point.tried_strain).first(n_components));
+        broken.n_breaks() > 0)
       point.accepted.accept(broken);
-  point.accepted_token = point.tried_token;
-  point.accepted_strain = std::move(point.tried_strain);
+  point.accepted_token = point.answer.token();
+  point.accepted_strain = point.tried_strain;
+  tell_damage(point);
   point.tried.reset();
 }
 
@@ -85,21 +107,19 @@ void Points::go(Point& point, const PointName name, const std::vector<std::uint6
   point = at_rest(name);
   for (const std::uint64_t token : way)
     {
-      const AnswerRecord record = (*log)[token];
-      point.tried_strain.assign(record.strain, record.strain + (dimension() == 2 ? 3 : 6));
-      point.tried = answer(point, point.tried_strain);
-      point.tried_token = token;
+      attempt(point, std::span((*log)[token].strain).first(n_components));
+      point.answer.states[0] = double(token);
       accept_tried(point);
     }
 }
 
-Answer Points::respond(const PointName name, const std::uint64_t parent, const std::span<const double> before,
-                       const std::span<const double> strain)
+const Answer& Points::respond(const PointName name, const std::uint64_t parent, const std::span<const double> before,
+                              const std::span<const double> strain)
 {
   const bool is_restarted =
     parent == 0 && std::any_of(before.begin(), before.end(), [](const double x) { return x != 0.0; });
   Point& point = point_of(name, is_restarted);
-  if (point.tried && parent == point.tried_token)
+  if (point.tried && parent == point.answer.token())
     accept_tried(point);
   else if (is_restarted)
     {
@@ -109,17 +129,13 @@ Answer Points::respond(const PointName name, const std::uint64_t parent, const s
   else if (parent != point.accepted_token)
     go(point, name, log->way_to(parent));
 
-  if (!point.tried || !std::ranges::equal(point.tried_strain, strain))
-    {
-      Trial trial = answer(point, strain);
-      if (!trial.in_equilibrium())
-        return {false, parent, point.accepted.stress(), point.accepted.stiffness(), point.accepted.damage()};
-      AnswerRecord record{name, point.accepted_token, {}};
-      std::copy(strain.begin(), strain.end(), record.strain);
-      point.tried_token = log->add(record);
-      point.tried_strain.assign(strain.begin(), strain.end());
-      point.tried = std::move(trial);
-    }
-  return {true, point.tried_token, point.tried->stress(), point.tried->tangent(), point.accepted.damage()};
+  if (!point.tried || !std::equal(strain.begin(), strain.end(), point.tried_strain.begin()))
+    if (attempt(point, strain); point.tried)
+      {
+        AnswerRecord record{name, point.accepted_token, {}};
+        std::copy(strain.begin(), strain.end(), record.strain);
+        point.answer.states[0] = double(log->add(record));
+      }
+  return point.answer;
 }
 } // namespace feldspar::interfaces

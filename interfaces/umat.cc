@@ -67,11 +67,15 @@ std::string job_name()
 }
 
 /// Points of a material, made at the first call that names it.
-Points& points_of(const std::string& material, const Breaking breaking)
+Points& points_of(const std::string_view name, const Breaking breaking)
 {
+  static thread_local std::pair<std::string, Points*> last;
+  if (last.first == name)
+    return *last.second;
   static std::mutex one_at_a_time;
   static std::map<std::string, std::unique_ptr<Points>> all;
   const std::lock_guard lock(one_at_a_time);
+  const std::string material = material_of(name);
   auto& points = all[material];
   if (!points)
     {
@@ -79,6 +83,7 @@ Points& points_of(const std::string& material, const Breaking breaking)
       points = std::make_unique<Points>(
         input, job_name() + "." + std::filesystem::path(input).stem().string() + ".feldspar", breaking);
     }
+  last = {std::string(name), points.get()};
   return *points;
 }
 
@@ -133,7 +138,7 @@ void respond(Points& points, const PointName name, const Call& call)
         before[c] = call.stran[own[c]];
         strain[c] = call.stran[own[c]] + call.dstran[own[c]];
       }
-  const Answer answer =
+  const Answer& answer =
     points.respond(name, std::uint64_t(call.statev[0]), std::span(before).first(n), std::span(strain).first(n));
   std::fill_n(call.ddsdde, call.ntens * call.ntens, 0.0);
   for (std::size_t a = 0; a < n; ++a)
@@ -153,8 +158,7 @@ void respond(Points& points, const PointName name, const Call& call)
       *call.pnewdt = 0.25;
       return;
     }
-  const auto values = state_variables_of(answer);
-  std::copy_n(values.begin(), std::min(std::size_t(call.nstatv), values.size()), call.statev);
+  std::copy_n(answer.states.begin(), std::min(std::size_t(call.nstatv), n_state_variables), call.statev);
 }
 } // namespace
 } // namespace feldspar::interfaces
@@ -174,13 +178,13 @@ extern "C" FELDSPAR_PUBLIC void umat_(double* stress, double* statev, double* dd
   using namespace feldspar::interfaces;
   try
     {
-      const std::string material = material_of({cmname, std::size_t(cmname_length > 0 ? cmname_length : 80)});
+      const std::string_view name(cmname, std::size_t(cmname_length > 0 ? cmname_length : 80));
       if (jstep[2] != 0)
-        end_job("material " + material + ": its strains are small; leave out NLGEOM");
+        end_job("material " + material_of(name) + ": its strains are small; leave out NLGEOM");
       if (*nstatv < 1)
-        end_job("material " + material + ": needs a state variable for its token; give *DEPVAR 11 (or 1)");
+        end_job("material " + material_of(name) + ": needs a state variable for its token; give *DEPVAR 11 (or 1)");
       const bool each_iteration = *nprops > 0 && props[0] != 0.0;
-      respond(points_of(material, each_iteration ? Breaking::each_iteration : Breaking::lagged),
+      respond(points_of(name, each_iteration ? Breaking::each_iteration : Breaking::lagged),
               {std::uint32_t(*noel), std::uint32_t(*npt)},
               {stress, statev, ddsdde, stran, dstran, *ndi, *nshr, *ntens, *nstatv, pnewdt});
     }

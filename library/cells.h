@@ -48,6 +48,7 @@ template <typename Matrix>
 std::vector<double> rows_of(const Matrix& matrix)
 {
   std::vector<double> values;
+  values.reserve(std::size_t(matrix.size()));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j)
       values.push_back(matrix(i, j));

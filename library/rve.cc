@@ -166,7 +166,7 @@ void Rve::accept(const Trial& trial)
       throw InputError("the trial is of another cell; a volume accepts its own trials and those of its copies");
     if (!trial.in_equilibrium())
       throw InputError("no equilibrium was found at this strain; take a smaller step from the accepted state");
-    cell.accept(feldspar::Trial<dim>(std::get<feldspar::Trial<dim>>(trial.of->trial)));
+    cell.restore(std::get<feldspar::Trial<dim>>(trial.of->trial).state);
   });
 }
 

@@ -2,6 +2,9 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <functional>
+
 namespace feldspar
 {
 template <int dim>
@@ -18,6 +21,8 @@ RepresentativeVolume<dim>::RepresentativeVolume(std::shared_ptr<const Network<di
 template <int dim>
 Voigt<dim> RepresentativeVolume<dim>::intact_strain(const Control<dim>& control) const
 {
+  if (std::ranges::none_of(control.stress_given, std::identity()))
+    return control.strain;
   // Rows of given stresses: C_0 ε = σ; of given strains: ε itself.
   Stiffness<dim> matrix = Stiffness<dim>::Identity();
   Voigt<dim> right = control.strain;

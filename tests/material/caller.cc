@@ -10,11 +10,11 @@
 /// state variables that were accepted; those of the last one of an increment that converged come back. After a restart they are
 /// zero, and the strains are there.
 ///
-///     caller -i JOB MATERIAL MODE FIRST LAST OF THREADS [cut] [nlgeom]
+///     caller -i JOB MATERIAL MODE FIRST LAST OF THREADS [cut] [nlgeom] [far]
 ///
 /// runs the increments FIRST to LAST of so many; FIRST above 1: after a restart. cut: each fifth increment is
-/// begun twice as long, and cut by the program. Writes a row for each increment and point: its stresses, bit by bit, and the
-/// state variables but for the token.
+/// begun twice as long, and cut by the program. far: the numbers of the elements begin at two thousand million. Writes a row
+/// for each increment and point: its stresses, bit by bit, and the state variables but for the token.
 extern "C" void umat_(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
                       double* rpl, double* ddsddt, double* drplde, double* drpldt, const double* stran,
                       const double* dstran, const double* time, const double* dtime, const double* temp,
@@ -80,10 +80,13 @@ int main(int n_words, char** words)
   const int first = std::atoi(words[3]), last = std::atoi(words[4]), of = std::atoi(words[5]);
   const std::size_t n_threads = std::size_t(std::atoi(words[6]));
   bool cuts = false, large = false;
+  int first_element = 1;
   for (int k = 7; k < n_words; ++k)
     {
       cuts = cuts || std::strcmp(words[k], "cut") == 0;
       large = large || std::strcmp(words[k], "nlgeom") == 0;
+      if (std::strcmp(words[k], "far") == 0)
+        first_element = 2000000000;
     }
   const auto strain_at = [&](const std::size_t p, const double increment) {
     Components strain = ends[p];
@@ -101,7 +104,7 @@ int main(int n_words, char** words)
         for (std::size_t p = thread; p < n_points; p += n_threads)
           {
             Point& point = points[p];
-            const int element = int(p) + 1;
+            const int element = first_element + int(p);
             Components stress;
             if (cuts && k % 5 == 0)
               called(material, mode, large, element, point, strain_at(p, k + 1), stress);

@@ -138,6 +138,16 @@ TEST_F(Umat, GivesTheSameBitsForThreadsCutsAndRestarts)
     }
 }
 
+// A table by number would take sixteen gigabytes.
+TEST_F(Umat, TakesElementsOfAnyNumberInLittleMemory)
+{
+  const std::string rows = called(folder, "BEISHAN 1 1 5 40 1");
+  const auto outcome =
+    run_command(folder.path(), "ulimit -v 4000000 && '" FELDSPAR_UMAT_CALLER "' -i far BEISHAN 1 1 5 40 1 far");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output << outcome.error;
+  EXPECT_EQ(outcome.output, rows);
+}
+
 TEST_F(Umat, EndsTheJobWithOneSentence)
 {
   const auto refused = [&](const std::string& words, const std::string& sentence) {
