@@ -22,45 +22,49 @@ import cascade
 thickness = 0.012  # m; one layer of elements, which does not move across its plane
 
 
-def job(material: str, divisions: tuple[int, int], n_increments: int, strain: float) -> str:
-    """Returns the input of CalculiX, which reads 20 characters of a number: a plate of C3D8 between rough platens, pulled to
-    a strain."""
-    across, along = divisions
+Mesh = tuple[list[tuple[float, float]], list[list[int]]]
+"""Nodes [m], and the four corners of each element, counted from 0."""
 
-    def node(i: int, j: int, k: int) -> int:
-        return 1 + i + (across + 1) * (j + (along + 1) * k)
 
+def rectangle(across: int, along: int) -> Mesh:
     nodes = [
-        f"{node(i, j, k)}, {i * cascade.width / across:.11e}, {j * cascade.height / along:.11e}, {k * thickness:.11e}"
-        for k in range(2) for j in range(along + 1) for i in range(across + 1)
+        (i * cascade.width / across, j * cascade.height / along) for j in range(along + 1) for i in range(across + 1)
     ]
-    elements = []
-    for j in range(along):
-        for i in range(across):
-            corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
-            numbers = ", ".join(str(node(a, b, k)) for k in range(2) for a, b in corners)
-            elements.append(f"{1 + i + across * j}, {numbers}")
+    first = [i + (across + 1) * j for j in range(along) for i in range(across)]
+    return nodes, [[k, k + 1, k + across + 2, k + across + 1] for k in first]
 
-    def platen(name: str, j: int) -> str:
-        numbers = [f"{node(i, j, k)}" for i in range(across + 1) for k in range(2)]
-        return f"*NSET, NSET={name}\n" + ",\n".join(numbers)
+
+def job(mesh: Mesh, material: str, n_increments: int, displacement: float, output: str = "") -> str:
+    """Returns the input of CalculiX, which reads 20 characters of a number: a plate of C3D8 between rough platens at its lowest
+    and highest nodes, pulled to a displacement."""
+    plane, elements = mesh
+    n = len(plane)
+    nodes = [
+        f"{1 + k + n * layer}, {x:.11e}, {y:.11e}, {layer * thickness:.11e}"
+        for layer in range(2) for k, (x, y) in enumerate(plane)
+    ]
+    layers = [[1 + k + n * layer for layer in range(2) for k in corners] for corners in elements]
+
+    def platen(name: str, height: float) -> str:
+        held = [f"{1 + k + n * layer}" for k, (_, y) in enumerate(plane) for layer in range(2) if abs(y - height) < 1e-9]
+        return f"*NSET, NSET={name}\n" + ",\n".join(held)
 
     return "\n".join([
         "*NODE, NSET=ALL", *nodes,
-        "*ELEMENT, TYPE=C3D8, ELSET=SAMPLE", *elements,
-        platen("BOTTOM", 0), platen("TOP", along),
+        "*ELEMENT, TYPE=C3D8, ELSET=SAMPLE", *[f"{1 + k}, {', '.join(map(str, one))}" for k, one in enumerate(layers)],
+        platen("BOTTOM", min(y for _, y in plane)), platen("TOP", max(y for _, y in plane)),
         material,
         "*BOUNDARY", "ALL, 3, 3", "BOTTOM, 1, 2", "TOP, 1, 1",
         f"*STEP, INC={2 * n_increments}", "*STATIC, DIRECT", f"{1.0 / n_increments:.11e}, 1.",
         "*CONTROLS, PARAMETERS=FIELD", "1e-8, 1e-3",
-        "*BOUNDARY", f"TOP, 2, 2, {strain * cascade.height:.11e}",
-        "*NODE PRINT, NSET=TOP, TOTALS=ONLY", "RF", "*END STEP", "",
+        "*BOUNDARY", f"TOP, 2, 2, {displacement:.11e}",
+        "*NODE PRINT, NSET=TOP, TOTALS=ONLY", "RF", output, "*END STEP", "",
     ])  # fmt: skip
 
 
-def user_material(library: str, constant: int) -> str:
+def user_material(library: str, constant: int, rock: str = "SAMPLE") -> str:
     """Returns the material of a library at all elements."""
-    name = f"@ABAQUS_{library}@SAMPLE"
+    name = f"@ABAQUS_{library}@{rock}"
     return (
         f"*MATERIAL, NAME={name}\n*USER MATERIAL, CONSTANTS=1\n{constant}\n*DEPVAR\n11\n"
         f"*SOLID SECTION, ELSET=SAMPLE, MATERIAL={name}"
@@ -86,26 +90,37 @@ void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *
 
 
 def run(ccx: str, text: str) -> tuple[str, float]:
-    """Runs a job. Returns what it printed of the platen, and its processor time [s]."""
-    with tempfile.TemporaryDirectory() as folder:
-        shutil.copy(Path(cascade.__file__).parent / "sample.prm", folder)
-        (Path(folder) / "job.inp").write_text(text)
+    """Runs a job. Returns what it printed, and its processor time [s]."""
+    here = Path(__file__).resolve().parent
+    with tempfile.TemporaryDirectory() as parent:
+        shutil.copytree(here.parent / "plate-with-hole", Path(parent) / "plate-with-hole")  # plate.prm has its mesh from there
+        folder = Path(parent) / here.name
+        folder.mkdir()
+        for rock in here.glob("*.prm"):
+            shutil.copy(rock, folder)
+        (folder / "job.inp").write_text(text)
         began = resource.getrusage(resource.RUSAGE_CHILDREN)
         done = subprocess.run([ccx, "-i", "job"], cwd=folder, capture_output=True, text=True)
         ended = resource.getrusage(resource.RUSAGE_CHILDREN)
-        forces = Path(folder) / "job.dat"
+        forces = folder / "job.dat"
         if not forces.exists() or not forces.read_text().strip():
             sys.exit(f"CalculiX gave no forces:\n{done.stdout[-2000:]}{done.stderr}")
         seconds = ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
         return forces.read_text(), seconds
 
 
+def platen_forces(text: str) -> list[tuple[float, float]]:
+    """Returns the share of the displacement and the force of the upper platen [N], increment by increment."""
+    found = re.findall(r"total force .* time\s+(\S+)\s+\S+\s+(\S+)\s+\S+", text)
+    return [(float(share), float(force)) for share, force in found]
+
+
 def curve(ccx: str, constant: int, increments: int) -> cascade.Curve:
     """Returns the rows of the curve, up to where CalculiX finds no equilibrium."""
     strain = cascade.n_steps * cascade.step
-    text, _ = run(ccx, job(user_material("FELDSPAR", constant), (2, 4), cascade.n_steps * increments, strain))
-    found = re.findall(r"time\s+(\S+)\s+\S+\s+(\S+)\s+\S+", text)
-    rows = [(float(share) * strain, float(y) / (thickness * cascade.width), 0) for share, y in found]
+    material = user_material("FELDSPAR", constant)
+    text, _ = run(ccx, job(rectangle(2, 4), material, cascade.n_steps * increments, strain * cascade.height))
+    rows = [(share * strain, force / (thickness * cascade.width), 0) for share, force in platen_forces(text)]
     return rows[increments - 1 :: increments]
 
 
@@ -116,7 +131,8 @@ def cost(ccx: str) -> None:
         command = ["cc", "-O2", "-shared", "-fPIC", "-x", "c", "-", "-o", f"{folder}/libELASTIC.so"]
         subprocess.run(command, input=elastic_umat, text=True, check=True)
         os.environ["LD_LIBRARY_PATH"] = f"{folder}:{os.environ.get('LD_LIBRARY_PATH', '')}"
-        jobs = [job(user_material(library, 0), (32, 32), 10, 1e-5) for library in ("ELASTIC", "FELDSPAR")]
+        mesh, displacement = rectangle(32, 32), 1e-5 * cascade.height
+        jobs = [job(mesh, user_material(library, 0), 10, displacement) for library in ("ELASTIC", "FELDSPAR")]
         pairs = [[run(ccx, text)[1] for text in jobs] for _ in range(9)]
     without, with_volumes = (statistics.median(column) for column in zip(*pairs))
     print(f"processor time of 10 increments: {without:.3f} s with an elastic UMAT, {with_volumes:.3f} s with volumes, "
@@ -130,5 +146,5 @@ if __name__ == "__main__":
         sys.exit()
     rows = curve(program, *[int(word) for word in (sys.argv[2:] + ["1", "10"][len(sys.argv) - 2 :])])
     lines = [f"{strain!r},{stress!r}\n" for strain, stress, _ in rows]
-    Path("calculix.csv").write_text("axial_strain [-],axial_stress [Pa]\n" + "".join(lines))
+    Path("calculix.csv").write_text("axial_strain [-],axial_stress [Pa]\n0,0\n" + "".join(lines))
     cascade.compare("CalculiX", rows)

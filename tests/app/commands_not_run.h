@@ -34,6 +34,8 @@ inline const std::vector<NotRun> commands_not_run{
   {"examples/other-codes/README.md", "python3 examples/other-codes/calculix_sample.py calculix/ccx",
    "needs that build"},
   {"examples/other-codes/README.md", "python3 examples/other-codes/calculix_sample.py calculix/ccx cost", "the same"},
+  {"examples/other-codes/README.md", "python3 examples/other-codes/calculix_element.py calculix/ccx", "the same"},
+  {"examples/other-codes/README.md", "python3 examples/other-codes/calculix_plate.py calculix/ccx", "the same"},
   {"docs/cluster.md",
    "cmake -S . -B build/cluster -G Ninja -DBUILD_TESTING=OFF -DFELDSPAR_LEVEL=x86-64-v3 -DDEAL_II_DIR=DEALII "
    "-DCMAKE_PREFIX_PATH=LIBRARIES",

@@ -91,7 +91,8 @@ sed -n '/^```text core.csv/,/^```$/p' docs/laboratory-data.md | grep -v '^```' >
   {"examples/multiscale-beishan/README.md",
    {"", {{"Tests/List = direct_tension", "Tests/Stop strain = 2e-5", "Seeds/Seeds = 1"}}}},
   {"examples/other-codes/README.md",
-   {"printf 'axial_strain [-],axial_stress [Pa]\\n0,0\\n1e-5,7e5\\n2e-5,14e5\\n' > calculix.csv\n",
+   {"printf 'axial_strain [-],axial_stress [Pa]\\n0,0\\n1e-5,7e5\\n2e-5,14e5\\n' > calculix.csv\n"
+    "cp calculix.csv calculix_plate_0.csv\ncp calculix.csv calculix_plate_1.csv\n",
     {{"Tests/Stop strain = 2e-5"}}}},
 };
 
