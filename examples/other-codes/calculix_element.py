@@ -17,7 +17,7 @@ import numpy
 import feldspar
 
 n = 100  # increments of a path
-volumes = {
+volumes: dict[str, dict[str, str]] = {
     "plane": {"Specimen/Shape": "periodic", "Specimen/Width": "12 mm", "Specimen/Height": "12 mm"},
     "space": {
         "Specimen/Dimension": "3", "Specimen/Shape": "periodic", "Specimen/Width": "7 mm", "Specimen/Height": "7 mm",
@@ -30,7 +30,7 @@ common = {
 }
 axes = ("xx", "yy", "zz", "yz", "xz", "xy")  # of a strain, tensor shear
 # Ends of the paths.
-paths = {
+paths: dict[str, dict[str, tuple[float, ...]]] = {
     "plane": {
         "tension": (-3e-5, 3e-4, 0, 0, 0, 0),
         "compression": (1e-4, -1.2e-3, 0, 0, 0, 0),
@@ -123,7 +123,7 @@ def compare(name: str, path: str, ccx: str) -> bool:
         titles = [f"strain_{axes[k]}" for k in own]
         (folder / "path.csv").write_text(",".join(titles) + "\n" + ",".join(str(end[k]) for k in own) + "\n")
         rock["Strain path/File"] = str(folder / "path.csv")
-        rock["Strain path/Largest step"] = f"{max(map(abs, end)) / n!r}"
+        rock["Strain path/Largest step"] = f"{max(abs(component) for component in end) / n!r}"
         curve = next(iter(feldspar.rve_path(rock, folder / "out").curves.values()))[1:]
         strains = numpy.zeros((len(curve), 6))
         strains[:, own] = curve[titles]
