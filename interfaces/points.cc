@@ -108,6 +108,8 @@ void Points::go(Point& point, const PointName name, const std::vector<std::uint6
   for (const std::uint64_t token : way)
     {
       attempt(point, std::span((*log)[token].strain).first(n_components));
+      if (!point.tried)
+        throw Error(log_file + ": finds no equilibrium at a strain that had one; another processor or build wrote it");
       point.answer.states[0] = double(token);
       accept_tried(point);
     }
