@@ -1,6 +1,7 @@
 #pragma once
 
 #include "laboratory/curve.h"
+#include "laboratory/emission.h"
 #include "laboratory/kinds.h"
 #include "laboratory/peak.h"
 #include "laboratory/specimen_report.h"
@@ -35,6 +36,7 @@ struct Crack
   double size;                  ///< length of the segment in 2D, root of its area in 3D [m]
   double released_energy;       ///< [J]
   bool on_smooth_joint = false; ///< of a flaw or at the boundary of a mineral grain
+  std::uint64_t event = 0;      ///< number of the event of acoustic emission; 0: none
 };
 
 /// The pieces that the joints still hold together at the end.
@@ -83,6 +85,7 @@ struct TestRecord
   SpecimenReport specimen;
   std::vector<CurveSample> curve;
   std::vector<Crack> cracks;
+  std::vector<EmissionEvent> events;  ///< of acoustic emission; none without grains
   std::optional<Fragments> fragments; ///< none without grains
   double bulk_density = 0.0;          ///< [kg/m³]
   PeakDemands peak_demands = {};      ///< on its highest stress

@@ -58,6 +58,7 @@ std::vector<Parameter> make_parameter_table()
   add("Tests", &Input::tests, test_entries());
   add("Tests", &Input::tests, tests_text_entries());
   add_own("Tests", {checkpoint_entry()});
+  add("Emission", &Input::tests, emission_entries());
   add("Variants", &Input::variants, variant_entries());
   add_own("Seeds", {seeds_entry()});
   add("Contact", &Input::contact, contact_entries());
