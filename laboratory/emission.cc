@@ -9,12 +9,13 @@ std::vector<Entry<TestParameters>> emission_entries()
   return within_tests<P>(
     {entry::number(
        "Event radius", &P::event_radius, {'(', 0.0, 100.0, ']'},
-       "in mean grain diameters. A break belongs to a running event if it lies within this distance beyond the "
-       "farthest break of the event from its centre, or if they share a grain",
+       "in mean grain diameters. A break belongs to a running event if it is no farther from its centre than the "
+       "farthest break of the event and this distance",
        of_grains),
-     entry::number("Event duration", &P::event_duration, {'(', 0.0, 100.0, ']'},
-                   "of an event after its last break, over the time in which a shear wave crosses that distance",
-                   of_grains),
+     entry::number(
+       "Event duration", &P::event_duration, {'(', 0.0, 100.0, ']'},
+       "of an event after its last break, over the time that a shear wave takes from its centre to that distance",
+       of_grains),
      entry::optional_quantity(
        "Thickness", &P::thickness, Measure::length, "mm", ranges::above_zero,
        "of a body in the plane, for the moments and energies of its events; none: the width of the "

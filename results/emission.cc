@@ -48,6 +48,28 @@ SourceMechanism mechanism(const EmissionEvent& event, const int dimension)
   return result;
 }
 
+std::vector<EmissionEvent> events_between(const TestRecord& record, const std::optional<double>& strain_at_peak,
+                                          const double from, const double to)
+{
+  std::vector<EmissionEvent> found;
+  const auto& curve = record.curve;
+  const auto deviator = [&](const CurveSample& row) { return record.kind.deviator(row, record.confining_pressure); };
+  const auto peak = std::find_if(curve.begin(), curve.end(), [&](const CurveSample& row) {
+    return strain_at_peak && record.kind.strain(row) >= *strain_at_peak;
+  });
+  if (peak == curve.end())
+    return found;
+  for (const EmissionEvent& event : record.events)
+    {
+      const auto row =
+        std::find_if(curve.begin(), peak, [&](const CurveSample& one) { return one.time >= event.time; });
+      const double share = deviator(*row) / deviator(*peak);
+      if (event.time <= peak->time && share >= from && share < to)
+        found.push_back(event);
+    }
+  return found;
+}
+
 double energy_magnitude(const EmissionEvent& event)
 {
   return event.released_energy > 0.0 ? std::log10(event.released_energy) / 1.5 - 2.9

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "laboratory/emission.h"
+#include "laboratory/record.h"
 
 #include <optional>
 #include <string_view>
@@ -36,6 +36,11 @@ struct MagnitudeFrequency
   double b_positive; ///< by the rises from each event to the next (van der Elst 2021)
   std::size_t n;     ///< events that count
 };
+
+/// The events of a test from one share of its peak deviator to another, before the peak; of a test without a peak, `strain_at_peak`
+/// (positive in the sense of the test) is none, and so are they.
+std::vector<EmissionEvent> events_between(const TestRecord& record, const std::optional<double>& strain_at_peak,
+                                          double from, double to);
 
 /// Of magnitudes in the order of the events; none with fewer than 30 that count.
 std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>& magnitudes);

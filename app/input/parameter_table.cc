@@ -14,6 +14,7 @@
 #include "dem/laws/entries.h"
 #include "dem/laws/joint_laws.h"
 #include "dem/specimen/entries.h"
+#include "laboratory/emission.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

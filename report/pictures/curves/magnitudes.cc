@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace feldspar
@@ -16,6 +17,7 @@ using namespace plot;
 
 Pictures magnitude_picture(const SameTests& same)
 {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   Chart chart{.x = {.label = "moment magnitude"},
               .y = {.label = "events of this magnitude or more", .logarithmic = true},
               .key_columns = 2};
@@ -23,11 +25,10 @@ Pictures magnitude_picture(const SameTests& same)
     {
       std::vector<double> magnitudes; // in the order of the events, test after test
       for (const auto* test : of.group.tests)
-        if (const auto& strain = test->results.strain_at_peak.value)
-          for (const EmissionEvent& event : test->record.events)
-            if (of.group.kind.sign * event.axial_strain <= *strain)
-              if (const double one = mechanism(event, test->record.dimension()).magnitude; std::isfinite(one))
-                magnitudes.push_back(one);
+        for (const EmissionEvent& event :
+             events_between(test->record, test->results.strain_at_peak.value, -infinity, infinity))
+          if (const double one = mechanism(event, test->record.dimension()).magnitude; std::isfinite(one))
+            magnitudes.push_back(one);
       if (magnitudes.empty())
         continue;
       const auto frequency = magnitude_frequency(magnitudes);
