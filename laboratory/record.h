@@ -35,6 +35,24 @@ struct Crack
   double size;                  ///< length of the segment in 2D, root of its area in 3D [m]
   double released_energy;       ///< [J]
   bool on_smooth_joint = false; ///< of a flaw or at the boundary of a mineral grain
+  std::uint64_t event = 0;      ///< number of the event of acoustic emission; 0: none
+};
+
+/// An event of acoustic emission: breaks of segments near each other in place and time.
+struct EmissionEvent
+{
+  std::uint64_t number = 0;         ///< from 1, in the order of the first breaks
+  double time = 0.0;                ///< of the first break, since the strain was zero [s]
+  double axial_strain = 0.0;        ///< of the specimen at the first break
+  std::uint64_t n_tension = 0;      ///< breaks in tension
+  std::uint64_t n_shear = 0;        ///< breaks in shear
+  double released_energy = 0.0;     ///< by the breaks [J]
+  std::array<double, 3> centroid{}; ///< mean of the places of the breaks [m]
+  double extent = 0.0;              ///< largest distance of a break from the centroid [m]
+  /// Moment tensor when its scalar moment was largest: xx, xy, xz, yy, yz, zz [N m].
+  std::array<double, 6> moment{};
+
+  std::uint64_t n_breaks() const { return n_tension + n_shear; }
 };
 
 /// The pieces that the joints still hold together at the end.
@@ -83,6 +101,7 @@ struct TestRecord
   SpecimenReport specimen;
   std::vector<CurveSample> curve;
   std::vector<Crack> cracks;
+  std::vector<EmissionEvent> events;  ///< of acoustic emission; none without grains
   std::optional<Fragments> fragments; ///< none without grains
   double bulk_density = 0.0;          ///< [kg/m³]
   PeakDemands peak_demands = {};      ///< on its highest stress

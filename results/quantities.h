@@ -32,6 +32,10 @@ struct TestResults
   Figure n_smooth_tension_cracks_at_peak;
   Figure n_smooth_shear_cracks_at_peak;
   Figure smooth_tension_share_at_peak;
+  Figure n_events_at_peak;
+  Figure b_value;
+  Figure b_value_error;
+  Figure b_positive;
   Figure fracture_toughness;
   Figure fracture_energy;
   Figure normal_stress_at_peak;
@@ -74,6 +78,10 @@ Figure shear_share_at_peak(const RisingBranch& branch);
 Figure n_smooth_tension_cracks_at_peak(const RisingBranch& branch);
 Figure n_smooth_shear_cracks_at_peak(const RisingBranch& branch);
 Figure smooth_tension_share_at_peak(const RisingBranch& branch);
+Figure n_events_at_peak(const RisingBranch& branch);
+Figure b_value(const RisingBranch& branch);
+Figure b_value_error(const RisingBranch& branch);
+Figure b_positive(const RisingBranch& branch);
 Figure fracture_toughness(const RisingBranch& branch);
 Figure fracture_energy(const RisingBranch& branch);
 Figure normal_stress_at_peak(const RisingBranch& branch);
@@ -128,6 +136,10 @@ inline constexpr TestsThatGive smooth_joints{"of bodies with smooth joints", [](
                                              }};
 inline constexpr TestsThatGive notch{
   "of notched bodies", [](const TestRecord& test) { return test.notch ? nullptr : "the test has no notch"; }};
+inline constexpr TestsThatGive emission{"on grains", [](const TestRecord& test) {
+                                          return test.body == TestBody::grains ? one_peak.objection(test)
+                                                                               : "events are of tests on grains";
+                                        }};
 inline constexpr TestsThatGive sheared_plane{"direct shear", [](const TestRecord& test) {
                                                return test.kind.pressure_acts_across ? nullptr
                                                                                      : "the test shears no plane";
@@ -255,6 +267,17 @@ inline constexpr TestQuantity test_quantities[] = {
               "smooth_tension_share_at_peak", "share of tension cracks of smooth joints at the peak",
               display::percent(1), "tension cracks of smooth joints over all cracks up to the peak",
               tests_with::smooth_joints, NeedsBesidesCurve::cracks),
+  row::figure(&TestResults::n_events_at_peak, evaluation::n_events_at_peak, "n_events_at_peak",
+              "events of acoustic emission up to the peak", display::plain(0),
+              "breaks near each other in place and time", tests_with::emission),
+  row::figure(&TestResults::b_value, evaluation::b_value, "b_value", "b-value of the emission up to the peak",
+              display::plain(2),
+              "fall of log10 of the number of events with the moment magnitude, by the mean magnitude",
+              tests_with::emission, InStudies{"b_value"}),
+  row::figure(&TestResults::b_value_error, evaluation::b_value_error, "b_value_error", "error of the b-value",
+              display::plain(2), "standard deviation (Shi and Bolt 1982)", tests_with::emission),
+  row::figure(&TestResults::b_positive, evaluation::b_positive, "b_positive", "b-value by rises of the magnitude",
+              display::plain(2), "b-positive (van der Elst 2021)", tests_with::emission),
   row::figure(&TestResults::fracture_toughness, evaluation::fracture_toughness, "fracture_toughness_Pa_sqrt_m",
               "fracture toughness", ShownIn{"MPa √m", mega, 3}, "stress intensity K_IC at the peak", tests_with::notch,
               PageColumn::where_given, InStudies{"toughness"}),

@@ -14,6 +14,7 @@
 #include "dem/laws/entries.h"
 #include "dem/laws/joint_laws.h"
 #include "dem/specimen/entries.h"
+#include "laboratory/emission.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -58,6 +59,7 @@ std::vector<Parameter> make_parameter_table()
   add("Tests", &Input::tests, test_entries());
   add("Tests", &Input::tests, tests_text_entries());
   add_own("Tests", {checkpoint_entry()});
+  add("Emission", &Input::tests, emission_entries());
   add("Variants", &Input::variants, variant_entries());
   add_own("Seeds", {seeds_entry()});
   add("Contact", &Input::contact, contact_entries());

@@ -167,6 +167,15 @@ void Dynamics<dim>::start()
   check_motion(); // from the outside; a first step too long would take grains where no contact is looked for
 }
 
+template <int dim>
+std::optional<std::size_t> Dynamics<dim>::joint_of(const std::uint32_t grain_1, const std::uint32_t number) const
+{
+  for (std::uint32_t k = joints_of.first[grain_1]; k < joints_of.first[grain_1 + 1]; ++k)
+    if (const std::size_t joint = joints_of.entries[k] / 2; body.joints.number[joint] == number)
+      return joint;
+  return std::nullopt;
+}
+
 /// Makes anew all that knows the places of joints, after some have gone or have other places.
 template <int dim>
 void Dynamics<dim>::index_joints()

@@ -14,6 +14,8 @@ void LabTest<dim>::transfer(Archive& archive)
 {
   auto dynamics = archive.subgroup("dynamics");
   set_up.dynamics.transfer(dynamics);
+  auto emitted = archive.subgroup("emission");
+  emission.transfer(emitted);
   archive.bytes("curve", record.curve);
   archive.bytes("cracks", record.cracks);
   for (std::size_t c = 0; c < gauge_positions.size(); ++c)

@@ -86,6 +86,7 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const 
   , stop_rule(test.protocol.kind, test.confining_pressure, {})
   , set_up(set_up_of(test, std::move(specimen), parameters, dynamics))
   , stage_walk(parameters)
+  , emission(set_up.dynamics.specimen(), parameters.of<EmissionParameters>())
 {
   const Specimen<dim>& tested = set_up.dynamics.specimen();
   record.kind = test.protocol.kind;
@@ -207,6 +208,7 @@ void LabTest<dim>::step()
       ++n_broken_segments[one];
       ++n_broken_segments[two];
     }
+  emission.follow(dynamics, breaks, record.cracks);
 }
 
 template <int dim>
@@ -373,6 +375,7 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
   result.record.ended_early = stage_walk.ended_early();
   if (!record.curve.empty()) // of a row that was begun nothing is reported yet
     result.record.cracks.resize(record.curve.back().n_tension_cracks + record.curve.back().n_shear_cracks);
+  result.record.events = emission.catalogue(result.record.cracks, time_at_start);
   result.bookkeeping.steps = set_up.dynamics.n_steps();
   if (!record.curve.empty())
     result.bookkeeping.steps_at_laboratory_rate =

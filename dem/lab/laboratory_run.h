@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/emission.h"
 #include "dem/lab/energy_watch.h"
 #include "dem/lab/laboratory_protocol.h"
 #include "dem/lab/strain_gauge.h"
@@ -132,6 +133,7 @@ private:
   TestRecord record;
   std::vector<Snapshot> snapshots;
   EnergyWatch energy_watch;
+  EmissionWatch<dim> emission;
   double wall_time = 0.0;    ///< [s]
   std::vector<bool> is_part; ///< each grain, of the body, before anything broke
   StrainGauge<dim> gauge;

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "base/vector.h"
+#include "dem/laws/contact_motion.h"
 #include "dem/laws/face_elements.h"
 #include "dem/laws/smooth_joint.h"
 #include "dem/storage/grains.h"
+
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstdint>
@@ -40,6 +43,20 @@ struct SmoothJoint
 };
 
 static_assert(std::is_trivially_copyable_v<SmoothJoint<2>> && std::is_trivially_copyable_v<SmoothJoint<3>>);
+
+/// t, or t_1 and t_2 of a plane with this normal.
+template <int dim>
+std::array<Vector<dim>, dim - 1> plane_axes(const Vector<dim>& normal)
+{
+  if constexpr (dim == 2)
+    return {Vector<2>(-normal[1], normal[0])};
+  else
+    {
+      const auto t = space::tangent_to({normal[0], normal[1], normal[2]});
+      const Vector<3> tangent(t[0], t[1], t[2]);
+      return {tangent, normal.cross(tangent)};
+    }
+}
 
 /// Share of the branch from grain 1 to the point at which the sides meet, in the middle of overlap or gap.
 template <int dim>

@@ -55,6 +55,11 @@ class Run:
         return self._csv("cracks.csv")
 
     @property
+    def emission(self) -> pandas.DataFrame:
+        """Events of acoustic emission of all tests: emission.csv."""
+        return self._csv("emission.csv")
+
+    @property
     def grains(self) -> dict[str, pandas.DataFrame]:
         """The grains of each test on grains, before and after."""
         return self._tables("grains")

@@ -25,7 +25,9 @@ FigureOfSameTests stress_picture;      ///< stress over axial, lateral and volum
 FigureOfSameTests crack_count_picture; ///< broken segments
 FigureOfSameTests energy_picture;      ///< partition of the energy in one of the series
 FigureOfSameTests crack_rate_picture;  ///< cracks and released energy per strain, as acoustic emission is shown
-inline constexpr std::array curve_figures{stress_picture, crack_count_picture, energy_picture, crack_rate_picture};
+FigureOfSameTests magnitude_picture;   ///< number of events of acoustic emission over their magnitude
+inline constexpr std::array curve_figures{stress_picture, crack_count_picture, energy_picture, crack_rate_picture,
+                                          magnitude_picture};
 
 // One test, under a title.
 using FigureOfTest = Pictures(const FinishedTest&, const std::string&);

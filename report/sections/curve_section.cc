@@ -44,13 +44,23 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
     section.blocks.push_back(std::move(stresses));
   append(section.blocks, std::move(further));
   for (std::size_t n = 0; n < findings.all.size(); ++n)
-    if (Table stages = stage_table(findings.all[n].tests); !stages.rows.empty())
-      {
-        stages.name += findings.ending_of_files(n);
-        PageBlock block = findings.heading_of(n);
-        block.tables.push_back(std::move(stages));
-        section.blocks.push_back(block);
-      }
+    {
+      if (Table emission = emission_table(findings.all[n]); !emission.rows.empty() && findings.is_in_full(n))
+        {
+          emission.name += findings.ending_of_files(n);
+          PageBlock block;
+          block.folded = findings.titled("Acoustic emission", findings.all[n]);
+          block.tables.push_back(std::move(emission));
+          section.blocks.push_back(block);
+        }
+      if (Table stages = stage_table(findings.all[n].tests); !stages.rows.empty())
+        {
+          stages.name += findings.ending_of_files(n);
+          PageBlock block = findings.heading_of(n);
+          block.tables.push_back(std::move(stages));
+          section.blocks.push_back(block);
+        }
+    }
   PageBlock remark_below;
   if (section.blocks.empty())
     remark_below.paragraphs.push_back("No test of these series has a curve.");

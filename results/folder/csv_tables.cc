@@ -3,6 +3,7 @@
 #include "base/quoted.h"
 #include "base/table/csv.h"
 #include "base/whole_file.h"
+#include "results/emission.h"
 #include "results/folder/table_columns.h"
 
 #include <fmt/format.h>
@@ -154,21 +155,24 @@ void append_cracks(std::string& text, const std::vector<Crack>& cracks, const st
     }
 }
 
-/// Cracks of one test.
-struct CracksOfTest
+/// Where the rows of one test go.
+template <typename Row>
+struct RowsOfTest
 {
   std::string_view name;
   TestKind kind;
-  std::vector<Crack>* cracks;
+  std::vector<Row>* rows;
 };
 
-std::string read_cracks_into(const std::filesystem::path& file, const std::vector<CracksOfTest>& tests)
+/// Gives each row to the test that it names; complete(row, table) adds what is no number.
+template <typename Row, typename Columns, typename Complete>
+std::string read_rows_into(const std::filesystem::path& file, const Columns& columns,
+                           const std::vector<RowsOfTest<Row>>& tests, const Complete& complete)
 {
   CsvReader table(file);
   const std::size_t name = table.place("test");
-  const std::size_t kind = table.place("kind");
-  const auto places = places_of(table, crack_columns);
-  std::map<std::string_view, const CracksOfTest*> by_name;
+  const auto places = places_of(table, columns);
+  std::map<std::string_view, const RowsOfTest<Row>*> by_name;
   for (const auto& test : tests)
     by_name[test.name] = &test;
   Gaps gaps(file, left_out);
@@ -176,12 +180,20 @@ std::string read_cracks_into(const std::filesystem::path& file, const std::vecto
     if (const auto found = by_name.find(table.text(name)); found != by_name.end())
       {
         const std::size_t n_gaps = gaps.number();
-        Crack crack = row_of<Crack>(table, crack_columns, places, found->second->kind.sign, gaps);
-        crack.kind = table.text(kind) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
+        Row row = row_of<Row>(table, columns, places, found->second->kind.sign, gaps);
+        complete(row, table);
         if (gaps.number() == n_gaps)
-          found->second->cracks->push_back(crack);
+          found->second->rows->push_back(row);
       }
   return gaps.remark();
+}
+
+std::string read_cracks_into(const std::filesystem::path& file, const std::vector<RowsOfTest<Crack>>& tests)
+{
+  return read_rows_into(file, crack_columns, tests, [](Crack& crack, const CsvReader& table) {
+    crack.kind =
+      table.text(table.place("kind")) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
+  });
 }
 } // namespace
 
@@ -203,7 +215,7 @@ void write_cracks(const std::vector<Crack>& cracks, const std::string& name, con
 
 std::string read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
 {
-  std::vector<CracksOfTest> all;
+  std::vector<RowsOfTest<Crack>> all;
   for (auto& test : tests)
     all.push_back({test.name, test.record.kind, &test.record.cracks});
   return read_cracks_into(file, all);
@@ -214,6 +226,34 @@ TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::strin
   TableRows<Crack> cracks;
   cracks.remark = read_cracks_into(file, {{name, kind, &cracks.rows}});
   return cracks;
+}
+
+void write_events(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
+{
+  if (std::none_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.events.empty(); }))
+    return;
+  std::string text = "test,scalar_moment_N_m,magnitude,energy_magnitude,isotropic,clvd,double_couple,mechanism,";
+  append_names(text, event_columns);
+  for (const auto& test : tests)
+    for (const EmissionEvent& event : test.record.events)
+      {
+        const SourceMechanism source = mechanism(event, test.record.dimension());
+        text += test.name;
+        for (const double number : {source.scalar_moment, source.magnitude, energy_magnitude(event), source.isotropic,
+                                    source.clvd, source.double_couple})
+          text += std::isfinite(number) ? fmt::format(",{}", number) : ",";
+        text += fmt::format(",{},", source.kind);
+        append_row(text, event_columns, event, test.record.kind.sign);
+      }
+  write_whole_file(file, text);
+}
+
+std::string read_events(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
+{
+  std::vector<RowsOfTest<EmissionEvent>> all;
+  for (auto& test : tests)
+    all.push_back({test.name, test.record.kind, &test.record.events});
+  return read_rows_into(file, event_columns, all, [](EmissionEvent&, const CsvReader&) {});
 }
 
 void write_steps(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)

@@ -30,7 +30,12 @@ void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem:
 /// the remark on the latter.
 std::string read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests);
 
-/// The same of a part of a test, under a name of its own.
+/// The events of acoustic emission of all tests, with their mechanisms (results/emission.h); nothing where there is none.
+void write_events(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
+/// As read_cracks(); mechanisms follow from the moments.
+std::string read_events(const std::filesystem::path& file, std::vector<FinishedTest>& tests);
+
+/// The cracks of a part of a test, under a name of its own.
 void write_cracks(const std::vector<Crack>& cracks, const std::string& name, const TestKind& kind,
                   const std::filesystem::path& file);
 TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind);

@@ -277,6 +277,7 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
         write_rve(rve, test, folder / result_file::points);
     }
   write_cracks(tests, folder / result_file::cracks);
+  write_events(tests, folder / result_file::emission);
   write_steps(tests, folder / result_file::steps);
   write_tests(tests, folder / result_file::tests);
   write_summary(made_by, tests, envelopes, folder / result_file::summary);
@@ -358,6 +359,8 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
             });
       }
   try_to(of_tables, [&] { add_unless_empty(of_tables, read_cracks(folder / result_file::cracks, tests)); });
+  if (std::filesystem::exists(folder / result_file::emission))
+    try_to(of_tables, [&] { add_unless_empty(of_tables, read_events(folder / result_file::emission, tests)); });
   for (const auto& of_one_kind : {of_kinds, of_names, of_tables, of_stages})
     add_few(problems, of_one_kind);
 

@@ -15,6 +15,7 @@ namespace result_file
 inline constexpr const char* summary = "summary.json";
 inline constexpr const char* curves = "curves";
 inline constexpr const char* cracks = "cracks.csv";
+inline constexpr const char* emission = "emission.csv";
 inline constexpr const char* tests = "tests.csv";
 inline constexpr const char* steps = "steps.csv";
 inline constexpr const char* grains = "grains";
@@ -27,8 +28,8 @@ inline constexpr const char* page = "report.html";
 inline constexpr const char* film = "film.webp";
 } // namespace result_file
 
-/// Writes what a later report needs: summary.json, tests.csv, curves/, cracks.csv, steps.csv of samples, grains/, points/. The fields of finite
-/// elements, fields/, are there already.
+/// Writes what a later report needs: summary.json, tests.csv, curves/, cracks.csv, emission.csv, steps.csv of samples, grains/,
+/// points/. The fields of finite elements, fields/, are there already.
 void write_result_folder(const Provenance& made_by, const std::vector<FinishedTest>& tests,
                          const RunEnvelopes& envelopes, const std::filesystem::path& folder);
 

@@ -216,6 +216,21 @@ def shear_lines(cells):
             number(mean(tests, "dilation_angle_rad", DEGREE), 2)]
 
 
+def emission(cells):
+    pressure = "Uniaxial compression" if cells[0] == "0" else f"Triaxial compression, {cells[0]} MPa"
+    with open(os.path.join(ROOT, "examples/emission-beishan/results/granite-emission.csv"), encoding="utf-8") as file:
+        row = next(row for row in csv.DictReader(file) if (row["test"], row["deviator"]) == (pressure, cells[1]))
+    columns = ("events", "breaks an event", "b", "b-positive", "tensile [%]", "shear [%]")
+    return [None, None, *(row[column] for column in columns)]
+
+
+def emission_windows(cells):
+    (test,) = (test for test in read("emission-beishan/windows")["tests"]
+               if f"radius = {cells[0]}," in test["variant"] and test["variant"].endswith(f"= {cells[1]}"))
+    return [None, None, number(test["n_events_at_peak"], 0), f"{test['b_value']:.2f} ± {test['b_value_error']:.2f}",
+            number(test["b_positive"], 2)]
+
+
 def stiff_rock(cells):
     row = [None]
     for stress in (2, 5):
@@ -419,6 +434,8 @@ TABLES = {
     "contact models": contact_models,
     "ways to break": ways_to_break,
     "clump size": clump_size,
+    "emission": emission,
+    "emission windows": emission_windows,
     "direct shear": direct_shear,
     "direct shear lines": shear_lines,
     "direct shear in stiff rock": stiff_rock,

@@ -18,20 +18,6 @@ Vector<dim> as_vector(const std::array<double, dim>& values)
   return Eigen::Map<const Vector<dim>>(values.data());
 }
 
-/// t, or t_1 and t_2 of a plane with this normal.
-template <int dim>
-std::array<Vector<dim>, dim - 1> axes_of(const Vector<dim>& normal)
-{
-  if constexpr (dim == 2)
-    return {Vector<2>(-normal[1], normal[0])};
-  else
-    {
-      const auto t = space::tangent_to({normal[0], normal[1], normal[2]});
-      const Vector<3> tangent(t[0], t[1], t[2]);
-      return {tangent, normal.cross(tangent)};
-    }
-}
-
 /// φ × r.
 template <int dim>
 Vector<dim> turned_by(const Rotation<dim>& turn, const Vector<dim>& arm)
@@ -67,7 +53,7 @@ smooth_joint::Update<dim> carry(SmoothJoint<dim>& joint, const Grains<dim>& grai
   const Vector<dim> motion = now - before - turned_by<dim>(turn_1, s * mean) - turned_by<dim>(turn_2, (1.0 - s) * mean);
 
   const Vector<dim> normal = as_vector<dim>(joint.normal);
-  const auto axes = axes_of<dim>(normal);
+  const auto axes = plane_axes<dim>(normal);
   std::array<double, dim - 1> slip;
   for (int c = 0; c < dim - 1; ++c)
     slip[c] = motion.dot(axes[c]);

@@ -1,0 +1,254 @@
+#include "dem/lab/emission.h"
+
+#include "base/system/hdf5_archive.h"
+#include "dem/lab/cracks.h"
+#include "dem/lab/servo.h"
+#include "dem/laws/flat_joint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double poisson_ratio = 0.25; // of the rock, for the speed of shear waves alone
+
+/// A force on grain 2 by its parts along the axes of a face.
+template <int dim>
+struct FaceForce
+{
+  double across;
+  std::array<double, dim - 1> along;
+};
+
+/// The force on grain 2 by a broken segment, less that by the same segment with its bond [N].
+template <int dim>
+FaceForce<dim> lost_force(const Joints<dim>& joints, const std::size_t joint, const unsigned int number)
+{
+  const auto [segment, offset] = place_segment(joints.face(joint), joints.elements[number]);
+  std::array<double, n_rotations<dim>> rotation;
+  for (std::size_t c = 0; c < rotation.size(); ++c)
+    rotation[c] = joints.rotation[c][joint];
+  std::array<double, dim - 1> slip;
+  for (std::size_t c = 0; c < slip.size(); ++c)
+    slip[c] = joints.slip[c][joint];
+  const double gap = flat_joint::gap_at(joints.opening[joint], rotation, offset);
+  const double slope = dim == 2 ? rotation[0] : 0.0;
+  slip = flat_joint::slip_at(slip, rotation[0], offset);
+  const auto shear = shear_stress(joints, number, joint);
+  FaceForce<dim> force{flat_joint::normal_response(segment, gap, slope, false).force -
+                         flat_joint::normal_response(segment, gap, slope, true).force,
+                       {}};
+  for (std::size_t c = 0; c < slip.size(); ++c)
+    force.along[c] = (shear[c] + segment.shear_stiffness * slip[c]) * segment.area();
+  return force;
+}
+
+template <int dim>
+FaceForce<dim> lost_force(const SmoothJoint<dim>& joint)
+{
+  FaceForce<dim> force{
+    joint.area * (joint.face.normal_stiffness * joint.opening - smooth_joint::normal_stress(joint.face, joint.state)),
+    {}};
+  for (std::size_t c = 0; c < force.along.size(); ++c)
+    force.along[c] = joint.area * (joint.state.shear_stress[c] + joint.face.shear_stiffness * joint.slip[c]);
+  return force;
+}
+
+/// The pair of forces on the grains of a broken segment that its bond no longer exerts, as a tensor [N m]; none if the joint is gone.
+template <int dim, class Segment>
+std::optional<Tensor<dim>> moment_of(const Dynamics<dim>& dynamics, const Segment& broken)
+{
+  const Specimen<dim>& body = dynamics.specimen();
+  FaceForce<dim> force;
+  Vector<dim> normal;
+  std::array<Vector<dim>, dim - 1> axes;
+  if (broken.on_smooth_joint)
+    {
+      const auto joint = std::find_if(body.smooth_joints.begin(), body.smooth_joints.end(),
+                                      [&](const SmoothJoint<dim>& one) { return one.number == broken.joint; });
+      if (joint == body.smooth_joints.end())
+        return std::nullopt;
+      force = lost_force(*joint);
+      normal = Eigen::Map<const Vector<dim>>(joint->normal.data());
+      axes = plane_axes<dim>(normal);
+    }
+  else
+    {
+      const std::optional<std::size_t> joint = dynamics.joint_of(broken.grain_1, broken.joint);
+      if (!joint)
+        return std::nullopt;
+      force = lost_force(body.joints, *joint, broken.segment);
+      normal = at<dim>(body.joints.normal, *joint);
+      if constexpr (dim == 2)
+        axes = plane_axes<dim>(normal);
+      else
+        {
+          const Vector<3> tangent = at<3>(body.joints.tangent, *joint);
+          axes = {tangent, normal.cross(tangent)};
+        }
+    }
+  Vector<dim> on_grain_2 = force.across * normal;
+  for (std::size_t c = 0; c < axes.size(); ++c)
+    on_grain_2 += force.along[c] * axes[c];
+  const Vector<dim> branch =
+    at<dim>(body.grains.position, broken.grain_2) - at<dim>(body.grains.position, broken.grain_1);
+  const Tensor<dim> moment = on_grain_2 * branch.transpose();
+  return 0.5 * (moment + moment.transpose());
+}
+} // namespace
+
+template <int dim>
+EmissionWatch<dim>::EmissionWatch(const Specimen<dim>& body, const EmissionParameters& wanted)
+  : least_radius(wanted.event_radius * 2.0 * body.report.mean_radius)
+  , duration_over_radius(wanted.event_duration * std::sqrt(2.0 * (1.0 + poisson_ratio)) / wave_speed(body))
+{
+  if (dim == 2)
+    thickness_ratio = wanted.thickness.value_or(body.size[0]) / body.thickness;
+}
+
+/// The event that a break at a place belongs to: the first of those that it is near to, which takes the others over, or a
+/// new one.
+template <int dim>
+typename EmissionWatch<dim>::Source& EmissionWatch<dim>::source_at(const Vector<dim>& place, const double time)
+{
+  const auto is_near = [&](const Source& source) {
+    return (place - Eigen::Map<const Vector<dim>>(source.centre.data())).norm() <= source.radius;
+  };
+  const auto first = std::find_if(sources.begin(), sources.end(), is_near);
+  if (first == sources.end())
+    {
+      const std::uint64_t event = events.size();
+      events.push_back({time, event, {}});
+      sources.emplace_back().event = event;
+      return sources.back();
+    }
+  sources.erase(std::remove_if(std::next(first), sources.end(),
+                               [&](const Source& other) {
+                                 if (!is_near(other))
+                                   return false;
+                                 events[other.event].part_of = first->event;
+                                 first->broken.insert(first->broken.end(), other.broken.begin(), other.broken.end());
+                                 return true;
+                               }),
+                sources.end());
+  return *first;
+}
+
+template <int dim>
+void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks,
+                                std::vector<Crack>& cracks)
+{
+  const double now = dynamics.time();
+  std::erase_if(sources, [&](const Source& source) { return source.end < now; });
+  for (std::size_t k = 0; k < breaks.size(); ++k)
+    {
+      Crack& crack = cracks[cracks.size() - breaks.size() + k];
+      const GrainPair ends = ends_of(dynamics.specimen(), breaks[k]);
+      BrokenSegment broken{ends.first, ends.second, std::uint32_t(crack.joint), crack.segment, crack.on_smooth_joint,
+                           {},         {}};
+      std::copy_n(crack.centroid.begin(), dim, broken.place.begin());
+      Source& source = source_at(Eigen::Map<const Vector<dim>>(broken.place.data()), now);
+      crack.event = source.event;
+      source.broken.push_back(broken);
+      Eigen::Map<Vector<dim>> centre(source.centre.data());
+      centre.setZero();
+      for (const BrokenSegment& one : source.broken)
+        centre += Eigen::Map<const Vector<dim>>(one.place.data()) / double(source.broken.size());
+      double farthest = 0.0;
+      for (const BrokenSegment& one : source.broken)
+        farthest = std::max(farthest, (Eigen::Map<const Vector<dim>>(one.place.data()) - centre).norm());
+      source.radius = least_radius + farthest;
+      source.end = now + duration_over_radius * source.radius;
+    }
+  for (Source& source : sources)
+    {
+      Tensor<dim> sum = Tensor<dim>::Zero();
+      for (BrokenSegment& broken : source.broken)
+        {
+          Eigen::Map<Tensor<dim>> moment(broken.moment.data());
+          moment = moment_of(dynamics, broken).value_or(moment);
+          sum += moment;
+        }
+      Eigen::Map<Tensor<dim>> largest(events[source.event].moment.data());
+      if (sum.squaredNorm() > largest.squaredNorm())
+        largest = sum;
+    }
+}
+
+template <int dim>
+std::vector<EmissionEvent> EmissionWatch<dim>::catalogue(std::vector<Crack>& cracks, const double start) const
+{
+  std::vector<EmissionEvent> list;
+  std::map<std::uint64_t, std::size_t> place_of_event;
+  for (Crack& crack : cracks)
+    {
+      std::uint64_t event = crack.event;
+      while (events[event].part_of != event)
+        event = events[event].part_of;
+      const auto [known, is_new] = place_of_event.emplace(event, list.size());
+      if (is_new)
+        {
+          EmissionEvent one{.number = list.size() + 1,
+                            .time = events[event].time - start,
+                            .axial_strain = crack.axial_strain};
+          const Eigen::Map<const Tensor<dim>> moment(events[event].moment.data());
+          for (int a = 0, k = 0; a < 3; ++a)
+            for (int b = a; b < 3; ++b, ++k)
+              one.moment[k] = b < dim ? thickness_ratio * moment(a, b) : 0.0;
+          list.push_back(one);
+        }
+      EmissionEvent& one = list[known->second];
+      crack.event = one.number;
+      ++(crack.kind == CrackKind::tension ? one.n_tension : one.n_shear);
+      one.released_energy += thickness_ratio * crack.released_energy;
+      for (int c = 0; c < dim; ++c)
+        one.centroid[c] += crack.centroid[c];
+    }
+  for (EmissionEvent& one : list)
+    for (double& coordinate : one.centroid)
+      coordinate /= double(one.n_breaks());
+  for (const Crack& crack : cracks)
+    {
+      EmissionEvent& one = list[crack.event - 1];
+      one.extent = std::max(
+        one.extent,
+        (Eigen::Map<const Vector<3>>(crack.centroid.data()) - Eigen::Map<const Vector<3>>(one.centroid.data())).norm());
+    }
+  return list;
+}
+
+template <int dim>
+template <typename Archive>
+void EmissionWatch<dim>::transfer(Archive& archive)
+{
+  archive.bytes("events", events);
+  std::uint64_t n_sources = sources.size();
+  archive.value("n_sources", n_sources);
+  sources.resize(n_sources);
+  for (std::size_t k = 0; k < n_sources; ++k)
+    {
+      Source& source = sources[k];
+      auto group = archive.subgroup(fmt::format("source_{}", k));
+      group.value("event", source.event);
+      group.value("end", source.end);
+      group.value("radius", source.radius);
+      for (int c = 0; c < dim; ++c)
+        group.value(fmt::format("centre_{}", "xyz"[c]), source.centre[c]);
+      group.bytes("broken", source.broken);
+    }
+}
+
+template class EmissionWatch<2>;
+template class EmissionWatch<3>;
+template void EmissionWatch<2>::transfer(Hdf5Writer&);
+template void EmissionWatch<2>::transfer(Hdf5Reader&);
+template void EmissionWatch<3>::transfer(Hdf5Writer&);
+template void EmissionWatch<3>::transfer(Hdf5Reader&);
+} // namespace feldspar

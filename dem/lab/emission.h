@@ -1,0 +1,69 @@
+#pragma once
+
+#include "dem/dynamics/dynamics.h"
+#include "laboratory/emission.h"
+#include "laboratory/record.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace feldspar
+{
+/// Gathers the breaks of a test into events of acoustic emission, and measures the moment tensor of each while it lasts:
+/// M = Σ sym(f ⊗ d) over its broken segments, with d the branch from grain 1 to grain 2 and f the force on grain 2 less that
+/// which the segment would exert if it still held. These pairs of forces bring the body with whole joints to the same
+/// displacements (Backus and Mulcahy 1976); docs/theory.md §4.14.
+template <int dim>
+class EmissionWatch
+{
+public:
+  EmissionWatch(const Specimen<dim>& body, const EmissionParameters& wanted);
+
+  /// After a step that made the last of these cracks by its breaks: gives them their events, and measures the events that last.
+  void follow(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks, std::vector<Crack>& cracks);
+
+  /// The events of these cracks, in the order of their first breaks; the cracks get the numbers of the list, from 1.
+  /// `start`: the time of zero strain [s].
+  std::vector<EmissionEvent> catalogue(std::vector<Crack>& cracks, double start) const;
+
+  template <typename Archive>
+  void transfer(Archive& archive);
+
+private:
+  using Moment = std::array<double, dim * dim>;
+
+  struct Event
+  {
+    double time;           ///< of the first break [s]
+    std::uint64_t part_of; ///< the event that took it over; itself otherwise
+    Moment moment;         ///< when its scalar moment was largest [N m]
+  };
+
+  struct BrokenSegment
+  {
+    std::uint32_t grain_1, grain_2, joint, segment; ///< the joint by its number
+    bool on_smooth_joint;
+    std::array<double, dim> place; ///< at the break [m]
+    Moment moment;                 ///< as long as its joint is there [N m]
+  };
+
+  /// An event that lasts.
+  struct Source
+  {
+    std::uint64_t event = 0;
+    double end = 0.0;                 ///< time, unless it grows [s]
+    double radius = 0.0;              ///< [m]
+    std::array<double, dim> centre{}; ///< mean of the places of its breaks [m]
+    std::vector<BrokenSegment> broken{};
+  };
+
+  Source& source_at(const Vector<dim>& place, double time);
+
+  double least_radius;          ///< [m]
+  double duration_over_radius;  ///< [s/m]
+  double thickness_ratio = 1.0; ///< of the body in the laboratory to that in the plane
+  std::vector<Event> events;
+  std::vector<Source> sources; ///< by event
+};
+} // namespace feldspar

@@ -1,0 +1,117 @@
+#include "results/emission.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace feldspar
+{
+namespace
+{
+/// Eigenvalues, the largest first.
+Eigen::Vector3d eigenvalues(const EmissionEvent& event, const int dimension)
+{
+  const auto& m = event.moment;
+  Eigen::Matrix3d tensor;
+  tensor << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
+  if (dimension == 2)
+    tensor(2, 2) = 0.5 * (m[0] + m[3]);
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues().reverse();
+}
+} // namespace
+
+SourceMechanism mechanism(const EmissionEvent& event, const int dimension)
+{
+  const Eigen::Vector3d m = eigenvalues(event, dimension);
+  const double counted = m.squaredNorm() - (dimension == 2 ? m[1] * m[1] : 0.0);
+  SourceMechanism result{};
+  result.scalar_moment = std::sqrt(0.5 * counted);
+  result.magnitude = result.scalar_moment > 0.0 ? std::log10(result.scalar_moment) / 1.5 - 6.07
+                                                : std::numeric_limits<double>::quiet_NaN();
+  const double isotropic = m.mean();
+  const double clvd = 2.0 / 3.0 * (m[0] + m[2] - 2.0 * m[1]);
+  const double double_couple = 0.5 * (m[0] - m[2] - std::abs(m[0] + m[2] - 2.0 * m[1]));
+  const double whole = std::abs(isotropic) + std::abs(clvd) + double_couple;
+  if (!(whole > 0.0))
+    return result;
+  result.isotropic = isotropic / whole;
+  result.clvd = clvd / whole;
+  result.double_couple = double_couple / whole;
+
+  const double trace = dimension == 2 ? m[0] + m[2] : m.sum();
+  const double of_volume = trace / (std::abs(trace) + (m.array() - isotropic).abs().sum());
+  result.kind = of_volume > 0.3 ? "tensile" : of_volume < -0.3 ? "implosive" : "shear";
+  return result;
+}
+
+std::vector<EmissionEvent> events_between(const TestRecord& record, const std::optional<double>& strain_at_peak,
+                                          const double from, const double to)
+{
+  std::vector<EmissionEvent> found;
+  const auto& curve = record.curve;
+  const auto deviator = [&](const CurveSample& row) { return record.kind.deviator(row, record.confining_pressure); };
+  const auto peak = std::find_if(curve.begin(), curve.end(), [&](const CurveSample& row) {
+    return strain_at_peak && record.kind.strain(row) >= *strain_at_peak;
+  });
+  if (peak == curve.end())
+    return found;
+  for (const EmissionEvent& event : record.events)
+    {
+      const auto row =
+        std::find_if(curve.begin(), peak, [&](const CurveSample& one) { return one.time >= event.time; });
+      const double share = deviator(*row) / deviator(*peak);
+      if (event.time <= peak->time && share >= from && share < to)
+        found.push_back(event);
+    }
+  return found;
+}
+
+double energy_magnitude(const EmissionEvent& event)
+{
+  return event.released_energy > 0.0 ? std::log10(event.released_energy) / 1.5 - 2.9
+                                     : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>& magnitudes)
+{
+  constexpr double bin = 0.1;
+  constexpr std::size_t fewest = 30;
+  std::map<double, std::size_t> n_of_bin;
+  for (const double one : magnitudes)
+    if (std::isfinite(one))
+      ++n_of_bin[std::floor(one / bin)];
+  if (n_of_bin.empty())
+    return std::nullopt;
+  const auto fullest = std::max_element(n_of_bin.begin(), n_of_bin.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  MagnitudeFrequency result{};
+  result.completeness = bin * fullest->first;
+  std::vector<double> counted;
+  std::copy_if(magnitudes.begin(), magnitudes.end(), std::back_inserter(counted),
+               [&](const double one) { return one >= result.completeness; });
+  result.n = counted.size();
+  if (result.n < fewest)
+    return std::nullopt;
+  const auto n = double(result.n);
+  double mean = 0.0, squares = 0.0, rises = 0.0, n_rises = 0.0;
+  for (const double one : counted)
+    mean += one / n;
+  for (std::size_t k = 0; k < counted.size(); ++k)
+    {
+      squares += (counted[k] - mean) * (counted[k] - mean);
+      if (k > 0 && counted[k] > counted[k - 1])
+        {
+          rises += counted[k] - counted[k - 1];
+          ++n_rises;
+        }
+    }
+  result.b = std::numbers::log10e / (mean - result.completeness);
+  result.error = std::numbers::ln10 * result.b * result.b * std::sqrt(squares / (n * (n - 1.0)));
+  result.b_positive = std::numbers::log10e * n_rises / rises;
+  return result;
+}
+} // namespace feldspar
