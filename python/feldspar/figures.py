@@ -68,7 +68,9 @@ def chart_figure(chart: Mapping[str, Any], axes: Union[Axes, None] = None) -> Ax
     axes.set_ylabel(chart["y"])
     if right is not axes:
         right.set_ylabel(chart["right"])
-    if chart["logarithmic"]:
+    if "y" in chart["logarithmic"]:
+        axes.set_yscale("log")
+    if "x" in chart["logarithmic"]:
         axes.set_xscale("log")
     if chart["equal"]:
         axes.set_aspect("equal")

@@ -69,7 +69,7 @@ std::string chart_data(const Chart& chart)
             {"y", chart.y.label},
             {"right", chart.right.label},
             {"from_zero", from_y == 0.0},
-            {"logarithmic", chart.x.logarithmic},
+            {"logarithmic", std::string(chart.x.logarithmic ? "x" : "") + (chart.y.logarithmic ? "y" : "")},
             {"equal", chart.equal_scales}};
   if (from_x && to_x && from_y && to_y)
     data["part"] = {number(*from_x), number(*to_x), number(*from_y), number(*to_y)};

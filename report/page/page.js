@@ -111,10 +111,10 @@
     });
   }
 
-  function axis(title, position, fromZero, type = "linear") {
+  function axis(title, position, fromZero, isLogarithmic = false) {
     const text = theme("--text");
     return {
-      type,
+      type: isLogarithmic ? "logarithmic" : "linear",
       position,
       min: fromZero ? 0 : undefined,
       title: {display: true, text: title, color: text},
@@ -129,7 +129,10 @@
     const canvas = element("canvas", box);
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", figure.alternative);
-    const scales = {x: axis(data.x, "bottom", false, data.logarithmic ? "logarithmic" : "linear"), y: axis(data.y, "left", data.from_zero)};
+    const scales = {
+      x: axis(data.x, "bottom", false, data.logarithmic?.includes("x")),
+      y: axis(data.y, "left", data.from_zero, data.logarithmic?.includes("y")),
+    };
     if (data.part) {
       [scales.x.min, scales.x.max] = data.part;
       [scales.y.min, scales.y.max] = data.part.slice(2);

@@ -34,8 +34,7 @@ Pictures magnitude_picture(const SameTests& same)
       const auto frequency = magnitude_frequency(magnitudes);
       std::sort(magnitudes.begin(), magnitudes.end(), std::greater<>());
       const std::string beginning = same.size() > 1 ? of.series->label + ", " : "";
-      ChartSeries counts{.kind = ChartSeries::Kind::steps,
-                         .label = fmt::format("{}{} events", beginning, magnitudes.size()),
+      ChartSeries counts{.label = fmt::format("{}{} events", beginning, magnitudes.size()),
                          .colour = colour(*of.series, of.n)};
       for (std::size_t k = 0; k < magnitudes.size(); ++k)
         if (k + 1 == magnitudes.size() || magnitudes[k + 1] < magnitudes[k])
