@@ -4,6 +4,7 @@
 #include "base/quoted.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -59,6 +60,14 @@ std::string duration_in_words(const double seconds)
   return seconds < 90.0     ? fmt::format("{:.0f} s", std::max(1.0, seconds))
          : seconds < 7200.0 ? fmt::format("{:.0f} min", seconds / 60.0)
                             : fmt::format("{:.0f} h", seconds / 3600.0);
+}
+
+std::string some_of(const std::vector<std::string>& names)
+{
+  constexpr std::size_t most = 5;
+  const auto n = std::min(most, names.size());
+  return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(n), ", "),
+                     names.size() > n ? fmt::format(" and {} more", names.size() - n) : "");
 }
 
 std::vector<std::string_view> split_at(const std::string_view separator, std::string_view text)

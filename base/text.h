@@ -23,6 +23,9 @@ std::vector<std::string> in_lines(std::string_view words, std::size_t most, std:
 /// About how long something takes: "40 s", "12 min", "3 h".
 std::string duration_in_words(double seconds);
 
+/// The first five names of a list, separated by commas, and how many more there are.
+std::string some_of(const std::vector<std::string>& names);
+
 /// The pieces between separators, trimmed; one at least.
 std::vector<std::string_view> split_at(std::string_view separator, std::string_view text);
 

@@ -32,6 +32,9 @@ struct CompressionParameters
   std::optional<double> machine_stiffness; ///< between crosshead and platens; none: rigid [N/m]
 };
 
-/// The entries of CompressionParameters.
+/// The entries of the pace.
 std::vector<Entry<TestParameters>> compression_entries();
+
+/// The entries of the machine.
+std::vector<Entry<TestParameters>> machine_entries();
 } // namespace feldspar

@@ -7,7 +7,25 @@
 /// The entries of all laboratory tests.
 namespace feldspar
 {
-/// The entries of section Tests that no protocol has of its own.
+/// The entry of tests between platens, or on a plate.
+inline std::vector<Entry<TestParameters>> platen_entries()
+{
+  return {entry::number(
+    "Platen friction", &TestParameters::platen_friction, ranges::from_zero,
+    "coefficient of the platens in compression. 0: smooth, as in the flat-joint paper; those of a laboratory hold the "
+    "ends of a specimen, and raise the uniaxial strength most",
+    tests_flags::as_basic(tests_flags::of_grains))};
+}
+
+/// The entry of tests with a pressure, or a weight, that is raised before they begin.
+inline std::vector<Entry<TestParameters>> seating_entries()
+{
+  return {entry::number("Seating transits", &TestParameters::seating_transits, {'(', 0.0, 1e4, ']'},
+                        "travel times of a wave along the specimen over which the confinement is raised",
+                        tests_flags::of_grains)};
+}
+
+/// The entries of section Tests that every test takes.
 inline std::vector<Entry<TestParameters>> common_test_entries()
 {
   using P = TestParameters;
@@ -18,13 +36,6 @@ inline std::vector<Entry<TestParameters>> common_test_entries()
     entry::integer("Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
                    "states of the grains kept in the folder fields, at most; the start and the end are among them",
                    as_basic(of_grains_alike)),
-    entry::number(
-      "Platen friction", &P::platen_friction, ranges::from_zero,
-      "coefficient of the platens in compression. 0: smooth, as in the flat-joint paper; those of a laboratory hold the "
-      "ends of a specimen, and raise the uniaxial strength most",
-      as_basic(of_grains)),
-    entry::number("Seating transits", &P::seating_transits, {'(', 0.0, 1e4, ']'},
-                  "travel times of a wave along the specimen over which the confinement is raised", of_grains),
     entry::number(
       "Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
       "a test stops at this many times the strain of its peak, once the stress has fallen after the peak; a test whose "

@@ -13,9 +13,10 @@ namespace feldspar
 {
 namespace
 {
-constexpr double round_off = 1e-9;     // a plateau peaks where it begins
-constexpr double level_within = 0.01;  // of the highest stress
-constexpr double fall_of_level = 0.05; // more is a fall, if less than the least one wanted
+constexpr double round_off = 1e-9;      // a plateau peaks where it begins
+constexpr double level_within = 0.01;   // of the highest stress
+constexpr double waver_of_level = 0.05; // about the mean
+constexpr double most_lag = 0.05;       // of the stress behind a machine that raises it
 
 /// A plane that slides, or a solid that yields, carries its strength to the end: any row may be the highest by a
 /// little, the last one too.
@@ -52,8 +53,8 @@ std::string objection(const TestRecord& record, const PeakWatch& watch)
   const double highest = record.kind.stress(record.curve[watch.row()]) / 1e6;
   if (!watch.is_borne())
     return fmt::format(
-      "the highest stress, {:.3g} MPa, is below {:.3g} MPa, which waves can bring about in a body that "
-      "nothing holds ({})",
+      "the highest stress, {:.3g} MPa, is below {:.3g} MPa, which waves can bring about at this rate in a body that "
+      "nothing holds ({}); lower the rate, if the body is whole",
       highest, watch.demands().least_stress / 1e6, input_entries::least_stress.text());
   if (watch.is_too_early())
     return fmt::format(
@@ -101,14 +102,18 @@ void PeakWatch::add(const CurveSample& row)
   lowest_since = std::min(lowest_since, deviator);
   is_first_peak = is_first_peak || slides(kind, row) ||
                   (kind.peak_rule == PeakRule::first_before_a_fall && is_borne() && !is_too_early() && has_fallen());
+  if (wanted.stress_rate > 0.0 && is_borne() && !is_too_early())
+    {
+      const bool follows = deviator >= (1.0 - most_lag) * wanted.stress_rate * row.time;
+      is_first_peak = is_first_peak || (has_followed && !follows);
+      has_followed = has_followed || follows;
+    }
   if (deviator <= highest_deviator * (1.0 + round_off) || is_first_peak)
     return;
   highest_deviator = lowest_since = deviator;
   row_of_highest = deviators.size() - 1;
   strain_at_highest = strain;
   time_of_highest = row.time;
-  while (deviators[begin_of_level] < (1.0 - level_within) * highest_deviator)
-    ++begin_of_level;
 }
 
 bool PeakWatch::is_rising() const
@@ -142,8 +147,28 @@ bool PeakWatch::is_at_its_lowest() const
 
 bool PeakWatch::is_level() const
 {
-  return highest_deviator > 0.0 && !has_fallen() && lowest_since >= (1.0 - fall_of_level) * highest_deviator &&
-         strains.back() >= (1.0 - round_off) * wanted.end_over_peak_strain * strains[begin_of_level] && !is_rising();
+  if (!(highest_deviator > 0.0 && strains.back() > 0.0))
+    return false;
+  std::vector<double> x, y;
+  const double begin = (1.0 - round_off) * strains.back() / wanted.end_over_peak_strain;
+  for (std::size_t k = strains.size(); k-- > 0 && strains[k] >= begin;)
+    {
+      x.push_back(strains[k]);
+      y.push_back(deviators[k]);
+    }
+  const PairedMoments moments = paired_moments(x, y);
+  const double mean = moments.mean_y;
+  const auto first_at_mean =
+    std::ranges::find_if(deviators, [&](const double s) { return s >= (1.0 - level_within) * mean; });
+  const auto [lowest, highest] = std::ranges::minmax(y);
+  if (!(moments.xx > 0.0) || first_at_mean == deviators.end() || lowest < (1.0 - waver_of_level) * mean ||
+      std::max(highest, highest_deviator) > (1.0 + waver_of_level) * mean ||
+      strains[std::size_t(first_at_mean - deviators.begin())] >
+        strains.back() / ((1.0 - round_off) * wanted.end_over_peak_strain))
+    return false;
+  const double rise = moments.slope() * (x.front() - x.back());
+  const double scatter = std::sqrt(std::max(0.0, moments.yy - moments.slope() * moments.xy) / double(x.size()));
+  return rise <= std::max(level_within * mean, 2.0 * scatter);
 }
 
 PeakVerdict find_peak(const TestRecord& record)

@@ -21,6 +21,7 @@ struct PeakDemands
   double least_fall = 0.05;          ///< fall after the highest deviator, as a share of it
   double end_over_peak_strain = 1.6; ///< strain to which a curve that does not fall stays level, over that at its peak
   bool may_end_rising = false;       ///< where it ends says nothing about the body: a measured curve, a table of stages
+  double stress_rate = 0.0;          ///< at which a machine raises its load; 0: not under load control [Pa/s]
 };
 
 /// Follows a curve row by row to its peak and beyond; stresses positive in the sense of the test.
@@ -29,7 +30,8 @@ class PeakWatch
 public:
   PeakWatch(const TestKind& kind, double confining_pressure, const PeakDemands& demands);
 
-  /// Takes the next row. By the rule of the first peak no row after a fall is the highest.
+  /// Takes the next row. By the rule of the first peak no row after a fall is the highest; under load control none after
+  /// the body no longer follows the machine.
   void add(const CurveSample& row);
 
   double highest() const { return highest_deviator; } ///< [Pa]
@@ -48,7 +50,8 @@ public:
   /// a fall.
   bool is_at_its_lowest() const;
   /// Returns whether the curve has stayed level for as long as a test goes on after its peak: the body yields, or
-  /// slides.
+  /// slides. Stick and slip may move it by 5 % about its mean; the straight line through this stretch rises by no more
+  /// than 1 %, or than twice the standard deviation about it.
   bool is_level() const;
 
 private:
@@ -61,10 +64,11 @@ private:
   double highest_deviator = 0.0;
   double lowest_since = 0.0;
   std::size_t row_of_highest = 0;
-  std::size_t begin_of_level = 0; ///< first row that is nearly as high
   double strain_at_highest = 0.0;
   double time_of_highest = 0.0;
-  bool is_first_peak = false; ///< by the rule of the first peak, or of a body that slides: nothing after it counts
+  bool has_followed = false; ///< a machine under load control
+  bool is_first_peak =
+    false; ///< by the rule of the first peak, or of a body that slides or runs away: nothing after it counts
 };
 
 /// The row of the peak of a finished curve, or the reason why it has none.

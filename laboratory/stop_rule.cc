@@ -37,8 +37,9 @@ bool StopRule::is_met_by(const CurveSample& row, const TestParameters& wanted) c
   const bool is_far_beyond_peak = strain >= ratio * peak.strain() && row.time >= ratio * peak.demands().least_time;
   if (wanted.stop_stress_over_peak)
     {
-      // After its first fall a disc may carry more than before and never fall to that share.
-      const bool may_rise_again = kind.peak_rule == PeakRule::first_before_a_fall && !wanted.stop_strain;
+      // After its first fall a disc, or a body that a machine goes on to press, may carry more and never fall to that share.
+      const bool may_rise_again =
+        (kind.peak_rule == PeakRule::first_before_a_fall || peak.demands().stress_rate > 0.0) && !wanted.stop_strain;
       return peak.has_fallen() && (kind.deviator(row, pressure) <= *wanted.stop_stress_over_peak * peak.highest() ||
                                    (may_rise_again && is_far_beyond_peak));
     }

@@ -50,6 +50,7 @@ struct TestResults
   Figure unbalanced_force_ratio;
   Figure end_stress_difference;
   Figure p_wave_transits_to_peak;
+  Figure stress_rate_error;
   Figure servo_error;
   Figure servo_error_largest;
 
@@ -92,6 +93,7 @@ Figure kinetic_to_strain_energy(const RisingBranch& branch);
 Figure unbalanced_force_ratio(const RisingBranch& branch);
 Figure end_stress_difference(const RisingBranch& branch);
 Figure p_wave_transits_to_peak(const RisingBranch& branch);
+Figure stress_rate_error(const RisingBranch& branch);
 Figure servo_error(const RisingBranch& branch);
 Figure servo_error_largest(const RisingBranch& branch);
 /// The same of all tests, with a peak or without.
@@ -99,6 +101,7 @@ Figure n_fragments(const TestRecord& record);
 Figure largest_fragment_share(const TestRecord& record);
 } // namespace evaluation
 
+inline constexpr const char* not_under_load_control = "not under load control";
 inline constexpr const char* no_laboratory_rate = "no rate of a laboratory was asked for";
 inline constexpr const char* without_time = "equilibrium is sought without time";
 inline constexpr const char* without_energies = "its material does not tell its energies";
@@ -112,11 +115,15 @@ inline constexpr TestsThatGive one_peak{"all but own_loading", [](const TestReco
                                           return test.kind.follows_stages ? no_monotonic_curve : nullptr;
                                         }};
 inline constexpr TestsThatGive fall{
-  "all but own_loading and Brazilian", [](const TestRecord& test) {
+  "all but own_loading, Brazilian and those under load control", [](const TestRecord& test) {
     return test.kind.peak_rule == PeakRule::first_before_a_fall
              ? "the strength is the stress before the first fall, and what is left of the body may bear more"
-             : one_peak.objection(test);
+           : test.stress_rate > 0.0 ? "under load control the strain runs away at the peak"
+                                    : one_peak.objection(test);
   }};
+inline constexpr TestsThatGive load_control{"under load control", [](const TestRecord& test) {
+                                              return test.stress_rate > 0.0 ? nullptr : not_under_load_control;
+                                            }};
 inline constexpr TestsThatGive uniform_stress{
   "direct tension, uniaxial and triaxial compression", [](const TestRecord& test) {
     return test.kind.has_uniform_stress ? nullptr
@@ -190,7 +197,7 @@ inline constexpr TestQuantity test_quantities[] = {
               "magnitude; under load control, of the stress rate over the modulus of the particle contacts",
               NanMeans{without_time}),
   row::number(&TestRecord::stress_rate, QuantityOf::method, "stress_rate_Pa_per_s", "stress rate",
-              ShownIn{"MPa/s", mega, 0}, "of the platens under load control", NanMeans{"not under load control"}),
+              ShownIn{"MPa/s", mega, 0}, "of the platens under load control", NanMeans{not_under_load_control}),
   row::number(&TestRecord::rate_over_laboratory, QuantityOf::method, "rate_over_laboratory",
               "rate over that of the laboratory", display::plain(0), "of stress or travel",
               NanMeans{no_laboratory_rate}),
@@ -356,6 +363,10 @@ inline constexpr TestQuantity test_quantities[] = {
               "P-wave transits up to the peak", display::plain(0),
               "time up to the peak over the time in which a P-wave crosses the body", QuantityOf::method,
               tests_with::uniform_stress, NeedsBesidesCurve::motion, at_least(20.0)),
+  row::figure(&TestResults::stress_rate_error, evaluation::stress_rate_error, "stress_rate_error",
+              "stress beside that of the machine under load control, largest over the rows up to the peak",
+              display::percent(1), "over the peak deviator, from 5 % of it on", QuantityOf::method,
+              tests_with::load_control, NeedsBesidesCurve::motion, at_most(5e-2)),
   row::figure(&TestResults::servo_error, evaluation::servo_error, "servo_error",
               "servo error of the confinement, mean over the rows up to the peak", display::percent(2),
               "mean magnitude of lateral stress / pressure - 1", QuantityOf::method, at_most(1e-2)),
@@ -436,6 +447,7 @@ inline constexpr RockProperty rock_properties[] = {
                 "Brazilian strength", display::megapascals(2), ResponseScale::strength),
   row::measured("fracture_toughness_MPa_sqrt_m", PropertySource::notch, 1e-3, 100.0, &TestResults::fracture_toughness),
   row::measured("fracture_energy_J_per_m2", PropertySource::notch, 1e-2, 1e5, &TestResults::fracture_energy),
+  row::measured("plate_friction_angle_deg", PropertySource::tilt, 0.1, 89.0, &TestResults::sliding_angle),
   row::derived("friction_angle_deg", PropertySource::fit, 1.0, 89.0, "friction angle, Mohr-Coulomb", display::degrees),
   row::derived("cohesion_MPa", PropertySource::fit, 1e-3, 2000.0, "cohesion, Mohr-Coulomb", display::megapascals()),
   row::derived("direct_shear_friction_angle_deg", PropertySource::fit, 1.0, 89.0, "friction angle, direct shear",

@@ -21,6 +21,8 @@ bool gives(const PropertySource source, const TestKind& kind)
       return kind.envelope_role == EnvelopeRole::indirect_tension;
     case PropertySource::notch:
       return kind.has_notch;
+    case PropertySource::tilt:
+      return kind.tilts;
     case PropertySource::given:
     case PropertySource::fit:
       break;

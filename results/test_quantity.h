@@ -167,6 +167,7 @@ enum class PropertySource
   compression,      ///< without confinement
   indirect_tension, ///< a disc that is split
   notch,            ///< each kind of test with a notch
+  tilt,             ///< of the plate below a body
   fit               ///< of several tests
 };
 

@@ -44,7 +44,7 @@ Remarks check_lab(const Input& input, const std::filesystem::path& file)
   check_memory_of_tests(RunPlan(input));
   with_specimen_of_file(
     input, [&](const auto& specimen) { with_name_of(file, [&] { check_specimen_of_file(input, specimen); }); });
-  return {};
+  return entries_without_effect(variants(input));
 }
 
 Remarks check_multiscale(const Input& input, const std::filesystem::path& file)

@@ -140,7 +140,7 @@ RunEnd test_alone(const Run& run, Progress& progress)
   append(missing, beside_reference_body(input, bodies));
   write_log(folder, describe_run(plan.variants, specimens, tests, envelopes, missing), run.quiet);
   // Pictures are still to be made if the run was interrupted while it drew them.
-  return {was_interrupted || interrupted(), first_failure(tests)};
+  return {was_interrupted || interrupted(), failures(tests)};
 }
 } // namespace
 

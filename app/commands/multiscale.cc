@@ -86,7 +86,7 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     write_log(run.folder, describe_run(input, rocks, tests, envelopes, remarks), run.quiet);
   });
   // Pictures are still to be made if the run was interrupted while it drew them.
-  return {ranks::any(was_interrupted || interrupted()), first_failure(tests)};
+  return {ranks::any(was_interrupted || interrupted()), failures(tests)};
 }
 
 int run_on_all_ranks(const CommonOptions& options)

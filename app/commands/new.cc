@@ -107,7 +107,7 @@ std::string reference_text()
   std::set<std::string_view> keys;
   std::string text = R"({
   "rock": "Beishan granite, the default rock",
-  "note": "Replace rock and values by yours. A value is a number, or {mean, min, max}, or {mean, standard_deviation, n}; null: not measured.",
+  "note": "Replace rock and values by yours. tensile_strength_MPa is that of direct tension. A value is a number, or {mean, min, max}, or {mean, standard_deviation, n}; null: not measured.",
   "experiment": {
     "label": "laboratory")";
   for (const RockProperty& one : rock_properties)

@@ -16,8 +16,8 @@ namespace
 {
 /// Words in the order of their enumerators.
 constexpr const char* subjects[] = {"the loading", "the rock", "the specimen", "the method", "the effort"};
-constexpr const char* sources[] = {"given, not compared", "direct tension", "uniaxial compression",
-                                   "Brazilian test",      "notched bodies", "several tests"};
+constexpr const char* sources[] = {"given, not compared", "direct tension", "uniaxial compression", "Brazilian test",
+                                   "notched bodies",      "tilt",           "several tests"};
 constexpr const char* places_in_summary[] = {"", "at the end", "at the end", "largest"};
 
 std::string bound_of(const TestQuantity& quantity)

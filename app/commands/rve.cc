@@ -131,7 +131,7 @@ RunEnd strain_alone(const Run& run, Progress& progress)
   for (const std::string& line : beside_reference_body(input, bodies))
     text += line + "\n";
   write_log(run.folder, text, run.quiet);
-  return {was_interrupted, first_failure(rves)};
+  return {was_interrupted, failures(rves)};
 }
 } // namespace
 

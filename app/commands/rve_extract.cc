@@ -94,7 +94,7 @@ std::string extract(const PlannedSample& planned, const SampleTest& test, const 
 int extract_rve(const std::filesystem::path& folder, const std::string& cell_and_point, const bool quiet)
 {
   const RvePlace place = place_of(cell_and_point);
-  const RunRecord record = read_run_record("multiscale", folder);
+  const RunRecord record = read_run_record("multiscale", folder, true);
   check_links(folder);
   const FileList list(folder);
   Progress progress(true);

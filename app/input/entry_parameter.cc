@@ -136,10 +136,10 @@ double read_number(const std::string_view text, const Measure measure, const std
     {
       if (text.find(' ') != std::string_view::npos)
         throw InputError(fmt::format("is a number without unit; it {}", demand));
-      const double value = parse_number(text);
+      const double value = with_usual_exponent(parse_number(text));
       if (!range.contains(value))
         throw InputError(demand);
-      return with_usual_exponent(value);
+      return value;
     }
   const Dimension& dimension = dimension_of(measure);
   const double value = parse_quantity(text, dimension);

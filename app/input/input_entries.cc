@@ -5,7 +5,7 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
-#include "laboratory/compression.h"
+#include "laboratory/own_entries.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -93,26 +93,6 @@ std::string write_gravity(const std::vector<double>& components)
   for (const double one : components)
     text += (text.empty() ? "" : ", ") + format_number(one);
   return text.empty() ? std::string(none) : text + " m/s^2";
-}
-
-std::optional<LoadingRate> read_loading_rate(const std::string_view text)
-{
-  if (text == none)
-    return std::nullopt;
-  for (const auto& [of, dimension] :
-       {std::pair(LoadingRate::Of::stress, &stress_rate), std::pair(LoadingRate::Of::force, &force_rate),
-        std::pair(LoadingRate::Of::travel, &velocity)})
-    try
-      {
-        if (const double value = parse_quantity(text, *dimension); value > 0.0)
-          return LoadingRate{of, value, std::string(text)};
-      }
-    catch (const InputError&)
-      {
-        // of another dimension
-      }
-  throw InputError(fmt::format("must be none, or a rate > 0 of stress, force or travel, e.g. \"{}\", \"{}\" or \"{}\"",
-                               stress_rate.example, force_rate.example, velocity.example));
 }
 
 std::vector<std::string> read_variant_entries(const std::string_view text)
@@ -233,26 +213,12 @@ Entry<Input> checkpoint_entry()
 std::vector<Entry<TestParameters>> tests_text_entries()
 {
   using P = TestParameters;
-  return {
-    {"Gravity",
-     Entry<P>::Text{"m/s^2", "none, or a number for each axis",
-                    [](P& tests, const std::string_view text) { tests.gravity = read_gravity(text); },
-                    [](const P& tests) { return write_gravity(tests.gravity); }},
-     "acceleration of all grains, from the first step on (of tilt: raised while the body is seated)",
-     tests_flags::of_grains, id_of_member(&P::gravity)},
-    {"Compression loading rate",
-     Entry<P>::Text{"MPa/s, kN/s or mm/min", "none, or > 0",
-                    [](P& tests, const std::string_view text) {
-                      tests.of<CompressionParameters>().loading_rate = read_loading_rate(text);
-                    },
-                    [](const P& tests) {
-                      const auto& rate = tests.of<CompressionParameters>().loading_rate;
-                      return rate ? rate->text : std::string(none);
-                    }},
-     "of a laboratory, in uniaxial and triaxial compression: a stress or a force (in the plane, of a specimen 1 m thick) "
-     "that the machine raises, or the travel of the platens; where it is slower than Compression strain rate (for a "
-     "stress: times the modulus of the particle contacts), the test runs at that, and both are told",
-     tests_flags::of_grains}};
+  return {{"Gravity",
+           Entry<P>::Text{"m/s^2", "none, or a number for each axis",
+                          [](P& tests, const std::string_view text) { tests.gravity = read_gravity(text); },
+                          [](const P& tests) { return write_gravity(tests.gravity); }},
+           "acceleration of all grains, from the first step on (of tilt: raised while the body is seated)",
+           tests_flags::of_grains, id_of_member(&P::gravity)}};
 }
 
 std::string varied_entry(const std::string_view text)

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace feldspar
@@ -84,6 +85,28 @@ void check_no_groups(const Input& input)
     if (const std::string value = find_parameter(section, entry)->write(input); value != none)
       refuse(
         fmt::format("{}/{} = {}: a representative volume takes none; set {} = none", section, entry, value, entry));
+}
+
+std::vector<std::string> entries_without_effect(const std::vector<Variant>& variants)
+{
+  std::vector<std::string> sentences;
+  for (const Variant& variant : variants)
+    for (const Parameter& parameter : parameter_table())
+      {
+        if (parameter.section != "Tests" || parameter.write(variant.input) == parameter.default_text())
+          continue;
+        std::vector<TestKind> takers = kinds_that_take(parameter.entry);
+        if (parameter.entry == "Confinements")
+          std::ranges::copy_if(test_kinds(), std::back_inserter(takers), &TestKind::takes_confining_pressure);
+        if (takers.empty() ||
+            std::ranges::any_of(takers, [&](const TestKind& kind) { return lists(variant.input, kind); }))
+          continue;
+        const std::string sentence = fmt::format("{} has no effect: it is of {}, and Tests/List has {}",
+                                                 parameter.name(), names(takers), names(variant.input.test_list));
+        if (std::ranges::find(sentences, sentence) == sentences.end())
+          sentences.push_back(sentence);
+      }
+  return sentences;
 }
 
 void check_on_body(const Input& input, const Body body)

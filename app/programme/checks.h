@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 /// Inputs that a command cannot run: all that can be told before any work. Each function throws InputError, with the
 /// input's name in front where an entry of it is wrong.
@@ -29,6 +31,9 @@ void check_equilibria(const SpecimenParameters& specimen, std::string_view remed
 
 /// Checks the boundary of representative volumes.
 void check_boundary(const Input& input);
+
+/// A remark for each entry of section Tests that is set, and is of none of the tests.
+std::vector<std::string> entries_without_effect(const std::vector<Variant>& variants);
 
 /// Refuses tests that are not made on specimens of this shape, and entries that have no use there.
 void check_on_body(const Input& input, Body body);

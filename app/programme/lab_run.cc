@@ -1,5 +1,6 @@
 #include "app/programme/lab_run.h"
 
+#include "app/programme/checks.h"
 #include "app/programme/laboratory_effort.h"
 #include "app/programme/run_board.h"
 #include "app/run/run_record.h"
@@ -61,6 +62,8 @@ std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<L
       parts.push_back(
         {one.name, 1.0, BoardTest{one.test, &input, cost_of_specimen(specimens[one.specimen].grains.size(), rate)}});
     }
+  for (const std::string& sentence : entries_without_effect(plan.variants))
+    progress.remark(sentence);
   progress.remark(describe_effort<dim>(tests, plan.variants, specimens));
   RunBoard board(progress, "tests", parts, tells_failures);
   auto finished_tests = run_tests(tests, specimens, folder, board);

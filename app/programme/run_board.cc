@@ -52,8 +52,10 @@ void RunBoard::ended(const std::size_t part)
 
 void RunBoard::cannot_be_made(const std::size_t part, const std::string& reason)
 {
-  if (tells && entries.size() > 1) // else the run ends with it
-    say(fmt::format("{} cannot be made: {}", entries[part].part.name, reason));
+  const std::lock_guard lock(showing);
+  if (tells && entries.size() > 1 &&
+      said.insert(reason).second) // the run ends with it, and with all parts that it is of
+    progress.remark(fmt::format("{} cannot be made: {}", entries[part].part.name, reason));
 }
 
 void RunBoard::goes_back(const std::string& sentence) { say(sentence); }

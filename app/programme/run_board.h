@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ class RunBoard : public RunObserver
 {
 public:
   /// Without a title, the parts belong to the stretch of work that the progress is at. `tells_failures`: whether a part that
-  /// cannot be made is said at once.
+  /// cannot be made is said at once, one for each reason.
   RunBoard(Progress& shown, const std::string& title, const std::vector<BoardPart>& parts, bool tells_failures = false);
 
   bool wants_end() const override { return interrupted(); }
@@ -74,6 +75,7 @@ private:
   Progress& progress;
   const bool tells;
   std::mutex showing;
+  std::set<std::string> said; ///< reasons
   std::vector<Entry> entries;
 };
 } // namespace feldspar

@@ -2,9 +2,12 @@
 
 #include "app/input/curves/laboratory_curve.h"
 #include "app/screen/progress.h"
+#include "base/text.h"
 #include "results/fits/run_envelopes.h"
 #include "results/folder/reference.h"
 #include "results/runs/run.h"
+
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <functional>
@@ -46,14 +49,27 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
 std::string describe_tests(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
                            const RunEnvelopes& envelopes, bool beside_flaws = false);
 
-/// The first part of a run that failed, with its reason; empty if none did.
+/// The parts of a run that failed for the reason of the first of them, this reason, and how many others failed; empty if none
+/// did.
 template <typename Part>
-std::string first_failure(const std::vector<Part>& parts)
+std::string failures(const std::vector<Part>& parts)
 {
+  std::vector<std::string> names;
+  std::string reason;
+  std::size_t n_others = 0;
   for (const Part& part : parts)
-    if (!part.record.failure.empty())
-      return part.name + ": " + part.record.failure;
-  return "";
+    if (const std::string& own = part.record.failure; !own.empty())
+      {
+        if (reason.empty())
+          reason = own;
+        if (own == reason)
+          names.push_back(part.name);
+        else
+          ++n_others;
+      }
+  return names.empty() ? ""
+                       : fmt::format("{}: {}{}", some_of(names), reason,
+                                     n_others > 0 ? fmt::format("; {} more failed for other reasons", n_others) : "");
 }
 
 /// The words of a run: into its log.txt, unless quiet onto the terminal. The last line names the page of the report, or how

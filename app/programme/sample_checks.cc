@@ -3,6 +3,7 @@
 #include "app/input/parameter_table.h"
 #include "app/programme/checks.h"
 #include "app/programme/reference_body.h"
+#include "base/append.h"
 #include "base/input_error.h"
 #include "base/ranks/ranks.h"
 #include "coupling/rve/rve_file.h"
@@ -153,8 +154,8 @@ std::vector<std::string> check_sample_input(const Input& input, const std::files
   SampleSize size{};
   with_name_of(input_file, [&] { size = checked_size(input); });
   std::vector<std::string> remarks = remarks_on_elements(input, size);
-  for (std::string& remark : remarks_on_flaws(input))
-    remarks.push_back(std::move(remark));
+  append(remarks, remarks_on_flaws(input));
+  append(remarks, entries_without_effect(variants(input)));
   return remarks;
 }
 

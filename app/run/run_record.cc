@@ -179,21 +179,21 @@ void mark_complete(const std::filesystem::path& folder, const std::string& failu
   write(folder, contents);
 }
 
-RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder)
+RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder, const bool goes_on)
 {
   const Contents contents = read(folder);
   if (contents.command != command)
     throw InputError(
       fmt::format("{}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
   const std::filesystem::path copy = copy_of_input(folder, contents.input_file);
+  const auto check = [&](const std::filesystem::path& file, const std::string& checksum) {
+    if (checksum_of(file) != checksum)
+      throw InputError(fmt::format("{}: {} is not as it was when the run began (its checksum differs); put it "
+                                   "back, or begin a new run",
+                                   folder.string(), file.string()));
+  };
   if (!contents.complete)
     {
-      const auto check = [&](const std::filesystem::path& file, const std::string& checksum) {
-        if (checksum_of(file) != checksum)
-          throw InputError(fmt::format("{}: {} is not as it was when the run began (its checksum differs); put it "
-                                       "back, or begin a new run",
-                                       folder.string(), file.string()));
-      };
       if (!contents.input_checksum.empty())
         check(copy, contents.input_checksum);
       for (const auto& [file, checksum] : contents.checksums)
@@ -206,6 +206,10 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
                          copy.string());
   Input input = read_input(copy, contents.relative_to, contents.settings);
   input.variants.named_by_number = !contents.variants_by_value;
+  if (goes_on)
+    for (const auto& [file, checksum] : contents.checksums)
+      if (file != input.reference_file && file != input.reference_results) // beside the results
+        check(file, checksum);
   return {std::move(input), contents.input_file,      contents.complete,
           contents.failure, contents.code_of_failure, std::move(remark)};
 }

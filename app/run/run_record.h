@@ -34,6 +34,6 @@ std::string run_identity(const Input& input, const std::string& part);
 void mark_complete(const std::filesystem::path& folder, const std::string& failure, int code_of_failure);
 
 /// Throws InputError where the folder is not that of a run of this command, and where its input, or a file that it names, is
-/// not what it was when the run began.
-RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder);
+/// not what it was when the run began. `goes_on`: whether a complete run is read on from, too.
+RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder, bool goes_on = false);
 } // namespace feldspar

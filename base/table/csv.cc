@@ -155,6 +155,11 @@ CsvReader::CsvReader(const std::filesystem::path& file, const IsHeader& is_heade
     }
   is_below_preamble = true;
   units.assign(columns.size(), 1.0);
+  if (is_header) // of a machine's many columns those that are looked for must be there once
+    return;
+  for (auto column = columns.begin(); column != columns.end(); ++column)
+    if (!column->empty() && std::find(columns.begin(), column, *column) != column)
+      throw InputError(fmt::format("{}:{}: the column {} is there twice", name, header_line, in_quotes(*column)));
 }
 
 /// The next line with something on it, to its end outside of quotes.

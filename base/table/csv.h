@@ -23,7 +23,7 @@ public:
   /// Tells whether a line has the column names that are looked for.
   using IsHeader = std::function<bool(const std::vector<std::string_view>& names)>;
 
-  /// The header is the first line that is one, of the first hundred; else the first line.
+  /// The header is the first line that is one, of the first hundred; else the first line, in which a name stands once.
   explicit CsvReader(const std::filesystem::path& file, const IsHeader& is_header = {});
   CsvReader(const CsvReader&) = delete;
   CsvReader& operator=(const CsvReader&) = delete;

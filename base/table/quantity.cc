@@ -183,11 +183,9 @@ double with_usual_exponent(const double value)
 {
   constexpr double smallest = 1e-30;
   constexpr double largest = 1e30;
-  const double size = std::abs(value);
-  if (size != 0.0 && (size < smallest || size > largest))
-    throw InputError(
-      fmt::format("the size of a number in SI units must be 0 or lie in [{:g}, {:g}]", smallest, largest));
-  return value;
+  if (std::abs(value) > largest)
+    throw InputError(fmt::format("is too large; a number is at most {:g} in SI units", largest));
+  return std::abs(value) < smallest ? 0.0 : value;
 }
 
 double parse_quantity(const std::string_view text, const Dimension& dimension)

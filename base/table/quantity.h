@@ -34,8 +34,8 @@ inline constexpr Dimension stress_rate{"a stress rate", "Pa/s", "0.7 MPa/s"};
 inline constexpr Dimension force_rate{"a force rate", "N/s", "0.5 kN/s"};
 inline constexpr Dimension velocity{"a velocity", "m/s", "0.1 mm/min"};
 
-/// Returns a number in SI as it is. Throws InputError for a size that no rock, body or test has: such numbers overflow or
-/// vanish in products.
+/// Returns a number in SI, 0 in place of one below 1e-30. Throws InputError for one above 1e30. No rock, body or test has
+/// such sizes, which vanish or overflow in products.
 double with_usual_exponent(double value);
 
 /// One number, one space and one unit expression; returned in SI.

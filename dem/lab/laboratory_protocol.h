@@ -62,7 +62,7 @@ struct LaboratoryProtocol
   TestKind kind;
   // Optional instead of null: the sanitizers' null checks keep an address from being compared in a constant.
   std::optional<Rate> strain_rate = {};
-  std::array<OwnEntries, 3> own_entries = {}; ///< up to the first null
+  std::array<OwnEntries, 5> own_entries = {}; ///< up to the first null
   PeakForecast forecast = {};
   bool takes_cylinders = false;           ///< in space; boxes are taken by all
   bool takes_clumps = false;              ///< in the plane: specimens of rigid groups of grains

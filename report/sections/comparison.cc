@@ -276,6 +276,9 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
           const auto [values, why_missing] = of_notched(tests, kind, property.figure);
           add_property(property, values, fmt::format("{}, {}", property.title, by), why_missing);
         }
+  if (const RockProperty& angle = rock_property("plate_friction_angle_deg");
+      std::ranges::any_of(tests, [](const FinishedTest& test) { return test.record.kind.tilts; }))
+    add_property(angle, by_seed(tests, angle.source, angle.figure));
   if (const auto lines = shear_lines(tests); !lines.empty())
     {
       add_property(rock_property("direct_shear_friction_angle_deg"),

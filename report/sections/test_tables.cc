@@ -45,6 +45,8 @@ Table strength_table(const Findings& findings)
                                            &quantity_of(&TestResults::residual_deviator_ratio)};
   if (has_column(quantity_of(&TestResults::fracture_toughness), findings))
     append(further, {&quantity_of(&TestResults::fracture_toughness), &quantity_of(&TestResults::fracture_energy)});
+  if (has_column(quantity_of(&TestResults::sliding_angle), findings))
+    further.push_back(&quantity_of(&TestResults::sliding_angle));
   for (const TestQuantity* const quantity : further)
     table.header.push_back(with_unit(quantity->title, quantity->shown.unit));
   for (const auto& series : findings.all)

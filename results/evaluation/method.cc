@@ -70,6 +70,15 @@ Figure p_wave_transits_to_peak(const RisingBranch& branch)
   return known(branch.at_peak().time * wave_speed / record.size[std::size_t(record.dimension()) - 1]);
 }
 
+Figure stress_rate_error(const RisingBranch& branch)
+{
+  double largest = 0.0;
+  branch.loaded_rows([&](const CurveSample& row) {
+    largest = std::max(largest, std::abs(branch.deviator(row) - branch.record.stress_rate * row.time));
+  });
+  return known(largest / branch.peak_deviator);
+}
+
 Figure servo_error(const RisingBranch& branch)
 {
   if (const char* const reason = objection_to_servo(branch.record))

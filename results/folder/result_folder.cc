@@ -168,6 +168,7 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
         figure.reason = reason;
       set_value(quantity, test, figure);
     }
+  test.record.peak_demands.stress_rate = std::isnan(test.record.stress_rate) ? 0.0 : test.record.stress_rate;
   if (kind.pressure_acts_across && !json.contains("normal_stress_at_peak_Pa")) // layouts from before it could change
     test.results.normal_stress_at_peak = {test.record.confining_pressure, ""};
   test.group = text_of(json, "group");

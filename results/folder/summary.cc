@@ -213,6 +213,8 @@ Json envelopes_as_json(const StrengthEnvelopes& envelopes, const std::string& in
         }
       for (const auto& [entry_name, figure] : record.entries)
         write_figure(out, entry_name, figure);
+      if (envelopes.data.tensile_strength && out.contains("measured_tensile_strength_Pa"))
+        out["measured_tensile_strength_from"] = envelopes.data.tension_is_indirect ? "brazilian" : "direct_tension";
       for (const auto& [point, residual] : record.residuals)
         out["residuals"].push_back(
           {{"sigma_3_Pa", point.sigma_3}, {"sigma_1_Pa", point.sigma_1}, {"residual_Pa", residual}});

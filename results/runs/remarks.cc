@@ -149,6 +149,19 @@ std::string remark_on_flaws(const TestsOfRock& tests)
            : "";
 }
 
+std::string remark_on_load_control(const TestsOfRock& tests)
+{
+  const auto lost = std::ranges::find_if(tests, [](const FinishedTest* const test) {
+    return test->record.stress_rate > 0.0 && test->results.strain_at_peak.value;
+  });
+  return lost == tests.end()
+           ? ""
+           : fmt::format(
+               "Under load control the strength is the load up to which the body follows the machine. Beyond it "
+               "the strain runs away ({}: at a strain of {:.3g} %), and the curve is none of the rock.",
+               (*lost)->name, 100.0 * *(*lost)->results.strain_at_peak.value);
+}
+
 std::string remark_on_rate(const TestsOfRock& tests)
 {
   const auto longest = std::ranges::max_element(tests, {}, [](const FinishedTest* const test) {

@@ -20,6 +20,9 @@ std::string remark_on_side_plates(const TestsOfRock& tests);
 /// A remark that the strengths of a body with flaws are nominal stresses; empty for a body without flaws.
 std::string remark_on_flaws(const TestsOfRock& tests);
 
+/// A remark on where the strain ran away under load control; empty where no test was under it.
+std::string remark_on_load_control(const TestsOfRock& tests);
+
 /// A remark that the tests ran faster than in the laboratory; empty where none did.
 std::string remark_on_rate(const TestsOfRock& tests);
 } // namespace feldspar

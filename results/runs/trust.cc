@@ -1,6 +1,7 @@
 #include "results/runs/trust.h"
 
 #include "base/append.h"
+#include "base/text.h"
 #include "laboratory/named_entries.h"
 #include "results/runs/quantity_values.h"
 #include "results/runs/remarks.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -19,6 +21,7 @@ namespace feldspar
 namespace
 {
 constexpr std::size_t fewest_seeds = 3; // below that a standard deviation says nothing
+constexpr std::string_view same_of_others = " The same holds for ";
 
 using Value = std::optional<double>;
 
@@ -173,11 +176,24 @@ std::vector<TrustCheck> trust_checks(const Series& series) { return trust_checks
 std::vector<std::string> shortcomings(const TestsOfRock& tests, const SeriesKind kind)
 {
   std::vector<std::string> sentences;
+  std::map<std::string, std::pair<std::size_t, std::vector<std::string>>>
+    alike; // by what is said: where, and further names
   for (const FinishedTest* const test : tests)
     for (const std::string& sentence : {shortcoming(*test), remark_on_splitting(*test)})
       if (!sentence.empty())
-        sentences.push_back(sentence);
-  for (const std::string& sentence : {remark_on_flaws(tests), remark_on_side_plates(tests), remark_on_rate(tests)})
+        {
+          auto& of = alike.try_emplace(sentence.substr(test->name.size()), sentences.size(), std::vector<std::string>())
+                       .first->second;
+          if (of.first == sentences.size())
+            sentences.push_back(sentence);
+          else
+            of.second.push_back(test->name);
+        }
+  for (const auto& [said, of] : alike)
+    if (!of.second.empty())
+      sentences[of.first] += fmt::format("{}{}.", same_of_others, some_of(of.second));
+  for (const std::string& sentence :
+       {remark_on_flaws(tests), remark_on_side_plates(tests), remark_on_load_control(tests), remark_on_rate(tests)})
     if (!sentence.empty())
       sentences.push_back(sentence);
   std::set<std::uint64_t> seeds;
@@ -279,7 +295,7 @@ std::vector<std::string> grouped_warnings(const std::vector<Series>& series)
       std::set<std::string> forms;
       for (const std::string& sentence : shortcomings(all_of(one), one.kind))
         {
-          std::string form = sentence;
+          std::string form = sentence.substr(0, sentence.find(same_of_others));
           for (const FinishedTest& test : one.tests)
             if (const std::size_t at = form.find(test.name); at != std::string::npos)
               form.erase(at, test.name.size());

@@ -245,7 +245,7 @@ TEST(Check, AsksAfterTheUnitOfAValueThatNoRockHas)
   const TemporaryFolder folder;
   folder.write("rock.prm",
                "subsection Flat joint\n  set Bond tensile strength = 22 GPa\nend\n"
-               "subsection Tests\n  set Confinements = 5, 10, 20 GPa\nend\n"
+               "subsection Tests\n  set List = triaxial_compression\n  set Confinements = 5, 10, 20 GPa\nend\n"
                "subsection Variants\n  set Entry = Flat joint/Modulus\n  set Values = 80 MPa; 80 GPa\nend\n");
   const Outcome check = run_feldspar(folder.path(), "parameters --check rock.prm --for lab");
   EXPECT_EQ(check.exit_code, 0) << check.error;

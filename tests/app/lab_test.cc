@@ -252,6 +252,27 @@ TEST(Lab, RefusesLoadsThatDoNotFitTheBodyTheTestsOrEachOther)
           "Tests/Machine stiffness: own_loading follows its table");
 }
 
+TEST(Lab, TellsEntriesThatNoneOfItsTestsTakes)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm",
+               "subsection Tests\n  set List = direct_tension\n  set Lateral boundary = membrane\n"
+               "  set Compression loading rate = 0.7 MPa/s\n  set Platen friction = 0.3\n"
+               "  set Seating transits = 5\n  set Confinements = 7 MPa\n  set Gravity = 0, -9.81 m/s^2\nend\n");
+  const auto check = run_feldspar(folder.path(), "parameters --check rock.prm --for lab");
+  EXPECT_EQ(check.exit_code, 0) << check.error;
+  for (
+    const char* const remark :
+    {"Tests/Lateral boundary has no effect: it is of triaxial_compression, and Tests/List has direct_tension",
+     "Tests/Compression loading rate has no effect: it is of uniaxial_compression, triaxial_compression, and",
+     "Tests/Platen friction has no effect: it is of uniaxial_compression, triaxial_compression, own_loading, tilt, and",
+     "Tests/Seating transits has no effect: it is of triaxial_compression, direct_shear, own_loading, tilt, and",
+     "Tests/Confinements has no effect: it is of triaxial_compression, direct_shear, and"})
+    EXPECT_NE(check.output.find(remark), std::string::npos) << check.output;
+  EXPECT_EQ(std::count(check.output.begin(), check.output.end(), '\n'), 6)
+    << check.output; // gravity acts in every test
+}
+
 TEST(Lab, TellsTheRateOfTheLaboratoryBesideItsOwn)
 {
   // 0.1 mm/min on 24 mm are 6.94e-5 1/s; at 2/s the loading to a strain of 1e-3 is 28 800 times as fast.
@@ -658,15 +679,18 @@ TEST(Lab, OneTestThatCannotBeMadeDoesNotCostTheOthers)
   std::string rock = tiny_rock;
   const std::string wanted = "10, 30 MPa";
   rock.replace(rock.find(wanted), wanted.size(), "10, 40000 MPa");
-  folder.write("rock.prm", rock);
+  folder.write("rock.prm", rock + "subsection Seeds\n  set Seeds = 1, 2\nend\n");
   const auto outcome = run_without_pictures(folder.path(), "lab rock.prm --output out --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.error.find("triaxial_compression_40000_MPa_seed_1 cannot be made: Tests/Confinements: the walls "
-                               "cannot hold 40000 MPa"),
-            std::string::npos)
-    << outcome.error;
+  EXPECT_EQ(outcome.error,
+            "feldspar: triaxial_compression_40000_MPa_seed_1, triaxial_compression_40000_MPa_seed_2: "
+            "Tests/Confinements: the walls cannot hold 40000 MPa on this specimen; the other results are in "
+            "out\n");
+  EXPECT_NE(content(folder.path() / "out/log.txt")
+              .find("on this specimen. The same holds for triaxial_compression_40000_MPa_seed_2."),
+            std::string::npos);
   const auto json = summary(folder.path() / "out");
-  ASSERT_EQ(json["tests"].size(), 3u);
+  ASSERT_EQ(json["tests"].size(), 6u);
   EXPECT_GT(json["tests"][1]["steps"], 0);
   EXPECT_NE(json["tests"][2]["peak_stress_Pa_reason"].get<std::string>().find("cannot hold"), std::string::npos);
   // A run that is over says again how it ended.

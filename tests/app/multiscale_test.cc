@@ -493,6 +493,11 @@ TEST(Multiscale, TakesTheRocksOfTheGroupsOfItsMesh)
     "group,Flat joint/Bond tensile strength [MPa],Flat joint/Bond cohesion [MPa]\nright_column,4,30\n";
   EXPECT_EQ(cells_that_broke(run("weak", weak, "5e-5")), (std::set<int>{1}));
   ASSERT_EQ(run_feldspar(folder.path(), "multiscale weak --extract 1:0 --quiet").exit_code, 0);
+  folder.write("weak.csv", "group,Flat joint/Modulus [GPa]\nseam,20\n");
+  const auto changed = run_feldspar(folder.path(), "multiscale weak --extract 1:0 --quiet");
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_NE(changed.error.find("weak.csv is not as it was when the run began"), std::string::npos) << changed.error;
+  EXPECT_EQ(std::count(changed.error.begin(), changed.error.end(), '\n'), 1) << changed.error;
 
   const auto refused = [&](const std::string& rocks, const std::string& words) {
     folder.write("bad.csv", rocks);
@@ -506,6 +511,7 @@ TEST(Multiscale, TakesTheRocksOfTheGroupsOfItsMesh)
   refused("group,Flat joint/Modulus [GPa]\nseam,20\n",
           "Sample/Mesh file = columns.msh: no group of cells is named seam; the mesh has left_column, right_column");
   refused("rock,Flat joint/Modulus [GPa]\nseam,20\n", "bad.csv:1: ");
+  refused("group,group\nleft_column,right_column\n", "bad.csv:1: the column \"group\" is there twice");
   refused("group,Specimen/Width [mm]\nleft_column,20\n", "Specimen/Width is one for all rocks of a sample");
   refused("group,Flat joint/Segments\nleft_column,3\nleft_column,4\n", "each row needs a group of its own; row 2 has");
 }

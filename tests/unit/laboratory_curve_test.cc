@@ -399,6 +399,20 @@ TEST(CsvReader, FindsThatAQuoteIsNotClosedInOnePass)
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
+TEST(CsvReader, RefusesAColumnThatIsThereTwice)
+{
+  const TemporaryFolder folder;
+  try
+    {
+      CsvReader(folder.write("t.csv", "group,, \"group\" ,\na,1,b,2\n"));
+      ADD_FAILURE() << "one of both would be taken";
+    }
+  catch (const InputError& error)
+    {
+      EXPECT_TRUE(std::string(error.what()).ends_with("t.csv:1: the column \"group\" is there twice")) << error.what();
+    }
+}
+
 TEST(CsvReader, FindsColumnsInAnyOrderButNoOthers)
 {
   const TemporaryFolder folder;

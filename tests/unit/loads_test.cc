@@ -2,6 +2,7 @@
 
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/seating.h"
 #include "laboratory/compression.h"
 #include "laboratory/paired_moments.h"
 #include "results/evaluation.h"
@@ -135,6 +136,26 @@ TEST(Tilt, ABodyCarriesItsWeightAndSlidesAtItsFrictionAngle)
 
 TEST(Tilt, SoItDoesInSpace) { expect_own_weight_and_sliding<3>(small_cylinder(1, far_from_breaking), 0.3); }
 
+TEST(Tilt, ALooseGrainKeepsNoBodyFromRest)
+{
+  // A loose grain would fall about in its void for milliseconds; the body carries its weight instead.
+  for (std::uint64_t seed = 1; seed < 20; ++seed)
+    {
+      const Specimen<2> specimen = small_specimen(seed, far_from_breaking);
+      const std::vector<bool> is_part = grains_of_body(specimen);
+      const auto n_loose = std::size_t(std::ranges::count(is_part, false));
+      if (n_loose == 0)
+        continue;
+      const TestRecord record = outcome<2>({tilt}, specimen, on_a_plate<2>(0.3)).record;
+      EXPECT_EQ(record.specimen.n_grains, specimen.grains.size() - n_loose);
+      const double weight = record.bulk_density * earth * specimen.size[1];
+      EXPECT_NEAR(-record.curve.front().lateral_stress, weight, 1e-3 * weight);
+      EXPECT_NEAR(*evaluate(record).sliding_angle.value, std::atan(0.3), 0.01 * std::atan(0.3));
+      return;
+    }
+  FAIL() << "no specimen has a loose grain";
+}
+
 TEST(Gravity, PutsTheWeightOnTheLowerPlatenOfAnyTest)
 {
   // Gravity of 1e5 m/s², so that it shows beside the waves of the platens: ρ g h = 5.4 MPa.
@@ -214,6 +235,11 @@ TEST(LoadControl, RaisesTheStressAtTheRateItSays)
         const double peak = *results.peak_stress.value;
         EXPECT_DOUBLE_EQ(made.record.stress_rate, run_at);
         EXPECT_NEAR(slope(made.record, 0.2 * peak, 0.9 * peak, time_of), run_at, 0.01 * run_at);
+        const auto at_peak = std::ranges::find(made.record.curve, -peak, &CurveSample::axial_stress);
+        ASSERT_NE(at_peak, made.record.curve.end());
+        EXPECT_NEAR(peak, test.confining_pressure + run_at * at_peak->time, 0.05 * peak);
+        EXPECT_LT(*results.stress_rate_error.value, 0.05);
+        EXPECT_EQ(results.post_peak_drop.reason, "under load control the strain runs away at the peak");
         const double faster = std::max(1.0, run_at / 0.7e6);
         if (rate.value < run_at)
           {
@@ -225,6 +251,14 @@ TEST(LoadControl, RaisesTheStressAtTheRateItSays)
           EXPECT_DOUBLE_EQ(made.record.rate_over_laboratory, 1.0);
         EXPECT_LT(made.record.curve.back().energies.imbalance(), 1e-3);
       }
+}
+
+TEST(LoadingRate, ThatIsTooHighIsNamedAsTheCause)
+{
+  // At 5000/s the ends alone bring 2 ρ c · 5000/s · 20 mm = 2.9 GPa, more than any body of these grains holds.
+  TestParameters wanted = load_controlled({LoadingRate::Of::travel, 5e3 * 0.020, ""});
+  const TestRecord fast = outcome<2>(uniaxial, small_specimen(), wanted).record;
+  EXPECT_EQ(fast.failure.find("the rate, 5e+03 1/s, is too high: waves alone bring about 2.9"), 0u) << fast.failure;
 }
 
 TEST(LoadingRate, OfTheTravelIsOneOfTheStrain)

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -132,6 +133,53 @@ TEST(Peak, OfABodyThatYieldsIsWhereItsLevelBegins)
   const TestRecord hardens = curve_through({{0.0, 0.0}, {2.0, 100.0}, {6.0, 120.0}});
   EXPECT_EQ(end_of(hardens), 0.0);
   EXPECT_EQ(peak_of(hardens).second, 0.0);
+}
+
+/// A body that slides under the friction 100 MPa from a strain of 1e-3 on, where sticking and slipping move the stress by a
+/// share of it, in waves of this length [1e-3].
+Corners stick_and_slip(const double share, const double wave, const double end, const double hardening = 0.0)
+{
+  Corners corners{{0.0, 0.0}, {1.0, 100.0}};
+  for (double e = 1.01; e < end + 0.001; e += 0.01)
+    corners.push_back(
+      {e, 100.0 * (1.0 + share * std::sin(2.0 * std::numbers::pi * (e - 1.0) / wave)) + hardening * (e - 1.0)});
+  return corners;
+}
+
+TEST(Peak, OfABodyThatSlidesIsItsFrictionThoughItSticksAndSlips)
+{
+  // A Stop strain ends it on its way up in a wave: the last tenth of the curve, half a wave long, leads far above. The
+  // line through 5/8 of the curve rises by at most 6/π of the amplitude over the number of waves in it.
+  for (const double share : {0.0, 0.01, 0.03})
+    for (const double end : {3.6, 4.2, 4.35, 5.0})
+      {
+        const auto [strain, stress] = peak_of(curve_through(stick_and_slip(share, 0.8, end)));
+        EXPECT_NEAR(stress, 100.0 * (1.0 + share), 0.01) << share << " " << end;
+        EXPECT_NEAR(strain, share > 0.0 ? 1.2 : 1.0, 1e-6);
+      }
+  EXPECT_NEAR(end_of(curve_through(stick_and_slip(0.03, 0.8, 5.0))), 1.6 * 1.2, 0.011);
+  // One that hardens by more than it wavers is still rising, and one that has slid for less than 0.6 of the way too.
+  EXPECT_EQ(peak_of(curve_through(stick_and_slip(0.005, 0.8, 4.2, 2.0))).second, 0.0);
+  EXPECT_EQ(peak_of(curve_through(stick_and_slip(0.01, 0.8, 1.5))).second, 0.0);
+}
+
+TEST(Peak, UnderLoadControlIsTheLoadUpToWhichTheBodyFollows)
+{
+  // The machine asks 50 MPa per strain of 1e-3. At 100 MPa the body gives way: the load stays behind, and is regained and
+  // exceeded only at three times the strain.
+  const auto pressed = [](const Corners& corners) {
+    TestRecord record = curve_through(corners);
+    record.peak_demands.stress_rate = 50e6 / unit_of_time;
+    return record;
+  };
+  const Corners gives_way{{0.0, 0.0}, {2.0, 100.0}, {3.0, 99.0}, {6.0, 140.0}};
+  EXPECT_NEAR(peak_of(pressed(gives_way)).second, 100.0, 1e-9);
+  EXPECT_NEAR(end_of(pressed(gives_way), pressed(gives_way).peak_demands), 3.2, 0.011);
+  EXPECT_EQ(peak_of(curve_through(gives_way)).second, 0.0); // still rising
+  // A small fall that the machine makes good is none: 96 MPa where it asks 100.
+  EXPECT_NEAR(peak_of(pressed({{0.0, 0.0}, {1.95, 97.5}, {2.0, 96.0}, {2.1, 105.0}, {2.4, 20.0}})).second, 105.0, 1e-9);
+  // A body too soft for the pump never follows; its peak is where it falls.
+  EXPECT_NEAR(peak_of(pressed({{0.0, 0.0}, {2.0, 60.0}, {2.2, 20.0}})).second, 60.0, 1e-9);
 }
 
 TEST(Peak, NeedsALeastStressAndTimeForItsWaves)

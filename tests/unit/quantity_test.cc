@@ -106,8 +106,6 @@ TEST(Quantity, MustBeOneNumberOneSpaceOneUnit)
                            "1e999 MPa",
                            "1e308 MPa",
                            "1e25 MPa",
-                           "5e-324 MPa",
-                           "-1e-37 MPa",
                            "-1e300 GPa.m2.m-2",
                            "5, 10, 20 MPa"})
     EXPECT_NE(stress_error(text), "") << text;
@@ -118,8 +116,10 @@ TEST(Quantity, ErrorsShowTheRightForm)
   EXPECT_EQ(stress_error("22"), "a unit is missing; write a stress, e.g. \"22 MPa\"");
   EXPECT_EQ(stress_error("MPa"), "a number is missing; write a stress, e.g. \"22 MPa\"");
   EXPECT_NE(error_of([] { parse_quantity("22 m", angle); }).find("\"10 deg\""), std::string::npos);
-  EXPECT_EQ(stress_error("5e-324 MPa"), "the size of a number in SI units must be 0 or lie in [1e-30, 1e+30]");
+  EXPECT_EQ(stress_error("1e25 MPa"), "is too large; a number is at most 1e+30 in SI units");
   EXPECT_EQ(stress_error("0 MPa"), "");
+  for (const char* const vanishing : {"5e-324 MPa", "-1e-37 MPa"}) // in any product
+    EXPECT_EQ(parse_quantity(vanishing, stress), 0.0);
   EXPECT_EQ(stress_error("1e308 MPa"), "1e+308 MPa is beyond the range of numbers; write a stress, e.g. \"22 MPa\"");
 }
 

@@ -1419,6 +1419,20 @@ TEST(Trust, OfManySeriesCountsWhatIsAlikeButForNamesAndNumbers)
   EXPECT_TRUE(sentences[2].starts_with("Out of bounds in 3 of 3 tests: energy imbalance")) << sentences[2];
 }
 
+TEST(Trust, SaysOnceWhatHoldsForSeveralTests)
+{
+  std::vector<Series> all{{"out", SeriesKind::specimens, {}, {compression(1), compression(2), compression(3)}, {}}};
+  for (const std::size_t k : {0u, 2u})
+    all[0].tests[k].record.failure = "the walls cannot hold 40000 MPa";
+  const auto sentences = warnings(all[0]);
+  EXPECT_EQ(sentences.front(),
+            fmt::format("{} could not be finished: the walls cannot hold 40000 MPa. The same holds for "
+                        "{}.",
+                        all[0].tests[0].name, all[0].tests[2].name));
+  EXPECT_EQ(
+    std::ranges::count_if(sentences, [](const auto& one) { return one.find("cannot hold") != std::string::npos; }), 1);
+}
+
 // Texts of the user: a heading, a name in tables and keys, a line under the heading and one at the top of each sheet.
 TEST(Report, BearsTheTextsOfItsUser)
 {

@@ -1,9 +1,11 @@
 // A kind of test has the properties that it names and no other.
 
 #include "base/input_error.h"
+#include "base/readable_file.h"
 #include "dem/lab/laboratory_protocol.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/sections/comparison.h"
+#include "results/fits/run_envelopes.h"
 #include "results/fits/strength_data.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -188,6 +191,13 @@ TEST(TestKinds, OfANameOnlyAreComparedUnderTheirOwnName)
     EXPECT_NE(text.find(row), std::string::npos) << row << " in\n" << text;
 }
 
+TEST(TestKinds, ThatTiltAPlateAreComparedByItsFrictionAngle)
+{
+  FinishedTest tilted = finished(tilt.kind, 1e-4);
+  tilted.results.sliding_angle = {std::atan(0.6), ""};
+  EXPECT_NE(rows({tilted}).find("friction angle on the plate: 31.0\n"), std::string::npos) << rows({tilted});
+}
+
 TEST(TestKinds, StandInTheOrderOfTheirPlaceInTheEnvelope)
 {
   std::vector<TestKind> kinds{torsion, brazilian.kind, triaxial_compression.kind, uniaxial_compression.kind,
@@ -209,6 +219,20 @@ TEST(TestKinds, OfAFolderThatAreNotKnownAreLeftOutAndNamed)
                           [](const auto& problem) { return problem.find("of a kind") != std::string::npos; }),
             1);
   EXPECT_EQ(read_result_folder(folder.path(), {pressing, brazilian.kind})[0].tests.size(), 2u);
+}
+
+TEST(TensileStrength, OfAnEnvelopeSaysFromWhichTestItIs)
+{
+  for (const TestKind& pulling : {brazilian.kind, direct_tension.kind})
+    {
+      std::vector<FinishedTest> tests{finished(pulling, 8e6), finished(uniaxial_compression.kind, 100e6)};
+      for (const auto& [pressure, strength] : {std::pair(5e6, 135e6), {10e6, 165e6}, {20e6, 210e6}, {40e6, 285e6}})
+        tests.push_back(finished(triaxial_compression.kind, strength, pressure));
+      const TemporaryFolder folder;
+      write_result_folder({}, tests, fit_each_rock(tests), folder.path());
+      const std::string wanted = fmt::format("\"measured_tensile_strength_from\": \"{}\"", pulling.name);
+      EXPECT_NE(content_of(folder.path() / "summary.json").find(wanted), std::string::npos) << wanted;
+    }
 }
 
 TEST(TrueTriaxialTests, AreNoPointOfAnEnvelopeThatKnowsNoIntermediateStress)

@@ -3,6 +3,7 @@
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
+#include "laboratory/entries.h"
 #include "laboratory/own_entries.h"
 
 #include <algorithm>
@@ -116,7 +117,7 @@ constinit const LaboratoryProtocol direct_shear = complete({
            .pressure_acts_across = true,
            .strength_decimals = 2},
   .strain_rate = rate_of<ShearParameters>,
-  .own_entries = {shear_entries},
+  .own_entries = {shear_entries, seating_entries},
   .forecast = {PeakForecast::With::compression, 1.1}, // granite in a box of 40 x 20 mm, examples/direct-shear
   .set_up_2d = set_up_direct_shear<2>,
   .set_up_3d = set_up_direct_shear<3>,

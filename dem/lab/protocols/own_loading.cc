@@ -6,6 +6,7 @@
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
 #include "laboratory/compression.h"
+#include "laboratory/entries.h"
 #include "laboratory/loading_stages.h"
 
 #include <algorithm>
@@ -120,7 +121,7 @@ constinit const LaboratoryProtocol own_loading = complete({
            .runs_on_finite_elements = true,
            .follows_stages = true},
   .strain_rate = rate_of<CompressionParameters>,
-  .own_entries = {compression_entries, loading_table_entries},
+  .own_entries = {compression_entries, loading_table_entries, platen_entries, seating_entries},
   .takes_cylinders = true,
   .set_up_2d = set_up_own_loading<2>,
   .set_up_3d = set_up_own_loading<3>,

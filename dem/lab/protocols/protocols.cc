@@ -49,6 +49,16 @@ std::vector<Entry<TestParameters>> test_entries()
   return all;
 }
 
+std::vector<TestKind> kinds_that_take(const std::string_view entry)
+{
+  std::vector<TestKind> kinds;
+  for (const LaboratoryProtocol* protocol : laboratory_protocols())
+    for (const OwnEntries entries : protocol->own_entries)
+      if (entries && std::ranges::any_of(entries(), [&](const auto& one) { return one.name == entry; }))
+        kinds.push_back(protocol->kind);
+  return kinds;
+}
+
 const std::vector<TestKind>& test_kinds()
 {
   static const std::vector<TestKind> kinds = [] {

@@ -5,6 +5,7 @@
 #include "laboratory/kinds.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The laboratory tests: each is one constant in the file of its name. To add one: its file, its line here and in the
@@ -39,6 +40,9 @@ const std::vector<const LaboratoryProtocol*>& laboratory_protocols();
 
 /// The entries of section Tests: those of single protocols, each once, then those of all.
 std::vector<Entry<TestParameters>> test_entries();
+
+/// The tests that alone take an entry of section Tests; none named where all do.
+std::vector<TestKind> kinds_that_take(std::string_view entry);
 
 /// Kinds of the tests, in the same order.
 const std::vector<TestKind>& test_kinds();

@@ -4,6 +4,7 @@
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
 #include "laboratory/compression.h"
+#include "laboratory/entries.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +98,7 @@ constinit const LaboratoryProtocol triaxial_compression = complete({
            .runs_on_finite_elements = true,
            .duration_rank = 1},
   .strain_rate = rate_of<CompressionParameters>,
-  .own_entries = {compression_entries, confinement_entries},
+  .own_entries = {compression_entries, machine_entries, confinement_entries, platen_entries, seating_entries},
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
   .takes_clumps = true,

@@ -2,6 +2,7 @@
 #include "dem/lab/machine.h"
 #include "dem/lab/protocols/protocols.h"
 #include "laboratory/compression.h"
+#include "laboratory/entries.h"
 
 #include <utility>
 
@@ -38,7 +39,7 @@ constinit const LaboratoryProtocol uniaxial_compression = complete({
            .runs_on_finite_elements = true,
            .duration_rank = 1},
   .strain_rate = rate_of<CompressionParameters>,
-  .own_entries = {compression_entries},
+  .own_entries = {compression_entries, machine_entries, platen_entries},
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
   .takes_clumps = true,
