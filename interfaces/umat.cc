@@ -70,7 +70,7 @@ std::string job_name()
 Points& points_of(const std::string_view name, const Breaking breaking)
 {
   static thread_local std::pair<std::string, Points*> last;
-  if (last.first == name)
+  if (last.second != nullptr && last.first == name)
     return *last.second;
   static std::mutex one_at_a_time;
   static std::map<std::string, std::unique_ptr<Points>> all;

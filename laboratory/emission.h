@@ -7,7 +7,7 @@
 
 namespace feldspar
 {
-/// What makes breaks one event of acoustic emission.
+/// The reach of an event of acoustic emission: breaks within it are one.
 struct EmissionParameters
 {
   double event_radius = 1.0;       ///< over the mean grain diameter

@@ -105,8 +105,9 @@ void PeakWatch::add(const CurveSample& row)
   if (wanted.stress_rate > 0.0 && is_borne() && !is_too_early())
     {
       const bool follows = deviator >= (1.0 - most_lag) * wanted.stress_rate * row.time;
-      is_first_peak = is_first_peak || (has_followed && !follows);
+      is_first_peak = is_first_peak || (has_followed && !follows && lagged_before); // a wave takes one row
       has_followed = has_followed || follows;
+      lagged_before = !follows;
     }
   if (deviator <= highest_deviator * (1.0 + round_off) || is_first_peak)
     return;

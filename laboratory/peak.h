@@ -66,7 +66,8 @@ private:
   std::size_t row_of_highest = 0;
   double strain_at_highest = 0.0;
   double time_of_highest = 0.0;
-  bool has_followed = false; ///< a machine under load control
+  bool has_followed = false;  ///< a machine under load control
+  bool lagged_before = false; ///< at the last row
   bool is_first_peak =
     false; ///< by the rule of the first peak, or of a body that slides or runs away: nothing after it counts
 };

@@ -59,11 +59,13 @@ std::vector<EmissionEvent> events_between(const TestRecord& record, const std::o
   });
   if (peak == curve.end())
     return found;
-  for (const EmissionEvent& event : record.events)
+  auto row = curve.begin();
+  double highest = deviator(*row);
+  for (const EmissionEvent& event : record.events) // in the order of their times
     {
-      const auto row =
-        std::find_if(curve.begin(), peak, [&](const CurveSample& one) { return one.time >= event.time; });
-      const double share = deviator(*row) / deviator(*peak);
+      for (; row != peak && row->time < event.time; ++row)
+        highest = std::max(highest, deviator(*row));
+      const double share = highest / deviator(*peak);
       if (event.time <= peak->time && share >= from && share < to)
         found.push_back(event);
     }
@@ -100,15 +102,21 @@ std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>&
   double mean = 0.0, squares = 0.0, rises = 0.0, n_rises = 0.0;
   for (const double one : counted)
     mean += one / n;
-  for (std::size_t k = 0; k < counted.size(); ++k)
+  for (const double one : counted)
+    squares += (one - mean) * (one - mean);
+  double last = std::numeric_limits<double>::quiet_NaN(); // no rise goes across one
+  for (const double one : magnitudes)
     {
-      squares += (counted[k] - mean) * (counted[k] - mean);
-      if (k > 0 && counted[k] > counted[k - 1])
+      if (one > last)
         {
-          rises += counted[k] - counted[k - 1];
+          rises += one - last;
           ++n_rises;
         }
+      if (!(one < result.completeness))
+        last = one;
     }
+  if (!(mean > result.completeness) || n_rises == 0.0)
+    return std::nullopt;
   result.b = std::numbers::log10e / (mean - result.completeness);
   result.error = std::numbers::ln10 * result.b * result.b * std::sqrt(squares / (n * (n - 1.0)));
   result.b_positive = std::numbers::log10e * n_rises / rises;

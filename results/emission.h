@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// What a catalogue of acoustic emission tells; docs/theory.md §4.14.
+/// Mechanisms, magnitudes and b-values of a catalogue of acoustic emission; docs/theory.md §4.14.
 namespace feldspar
 {
 /// The mechanism of an event, by its moment tensor. In the plane the eigenvalue across the plane is not known: it is taken as the mean
@@ -23,7 +23,8 @@ struct SourceMechanism
 
 SourceMechanism mechanism(const EmissionEvent& event, int dimension);
 
-/// M_e = ⅔ log10 E − 2.9, E in J (Choy and Boatwright 1995), of the energy that the breaks released; NaN without any.
+/// M_e = ⅔ log10 E − 2.9, E in J (Choy and Boatwright 1995), of all the energy that the breaks released, of which a part is
+/// radiated; NaN without any.
 double energy_magnitude(const EmissionEvent& event);
 
 /// The fall of the number of events with their magnitude: log10 N = a − b M.
@@ -33,15 +34,15 @@ struct MagnitudeFrequency
     completeness; ///< magnitude from which on events count: the lower end of the fullest tenth (Wiemer and Wyss 2000)
   double b;       ///< by the mean magnitude (Aki 1965, Utsu 1965)
   double error;   ///< standard deviation of b (Shi and Bolt 1982)
-  double b_positive; ///< by the rises from each event to the next (van der Elst 2021)
+  double b_positive; ///< by the rises from each event that counts to the next (van der Elst 2021)
   std::size_t n;     ///< events that count
 };
 
-/// The events of a test from one share of its peak deviator to another, before the peak; of a test without a peak, `strain_at_peak`
-/// (positive in the sense of the test) is none, and so are they.
+/// The events of a test before its peak, while the highest deviator so far lies between two shares of that at the peak; none
+/// where there is no peak. `strain_at_peak`: positive in the sense of the test.
 std::vector<EmissionEvent> events_between(const TestRecord& record, const std::optional<double>& strain_at_peak,
                                           double from, double to);
 
-/// Of magnitudes in the order of the events; none with fewer than 30 that count.
+/// The fall for magnitudes in the order of the events, those of several tests parted by NaN; none with fewer than 30 that count.
 std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>& magnitudes);
 } // namespace feldspar

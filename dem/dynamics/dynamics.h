@@ -76,7 +76,7 @@ public:
 
   /// Images of a periodic body stand behind its own grains.
   const Specimen<dim>& specimen() const { return body; }
-  /// Where the joint of this number stands, by its first grain; nowhere once it has lost its face.
+  /// Finds the joint of this number by its first grain; none once it has lost its face.
   std::optional<std::size_t> joint_of(std::uint32_t grain_1, std::uint32_t number) const;
   Specimen<dim>& specimen() { return body; }
   const std::vector<Wall>& walls() const { return wall_set.list(); }

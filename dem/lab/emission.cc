@@ -12,12 +12,14 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <variant>
 
 namespace feldspar
 {
 namespace
 {
 constexpr double poisson_ratio = 0.25; // of the rock, for the speed of shear waves alone
+constexpr std::size_t most_segments_a_step = 64;
 
 /// A force on grain 2 by its parts along the axes of a face.
 template <int dim>
@@ -42,11 +44,14 @@ FaceForce<dim> lost_force(const Joints<dim>& joints, const std::size_t joint, co
   const double slope = dim == 2 ? rotation[0] : 0.0;
   slip = flat_joint::slip_at(slip, rotation[0], offset);
   const auto shear = shear_stress(joints, number, joint);
-  FaceForce<dim> force{flat_joint::normal_response(segment, gap, slope, false).force -
-                         flat_joint::normal_response(segment, gap, slope, true).force,
-                       {}};
+  // A parallel bond goes with its face; the contact of its grains, which stays, is no part of it.
+  const bool is_gone = std::visit([](const auto& law) { return !law.face_outlives_bonds; }, joints.law);
+  const auto carried = [&](const bool bonded) {
+    return flat_joint::normal_response(segment, gap, slope, bonded).force;
+  };
+  FaceForce<dim> force{(is_gone ? 0.0 : carried(false)) - carried(true), {}};
   for (std::size_t c = 0; c < slip.size(); ++c)
-    force.along[c] = (shear[c] + segment.shear_stiffness * slip[c]) * segment.area();
+    force.along[c] = ((is_gone ? 0.0 : shear[c]) + segment.shear_stiffness * slip[c]) * segment.area();
   return force;
 }
 
@@ -71,9 +76,11 @@ std::optional<Tensor<dim>> moment_of(const Dynamics<dim>& dynamics, const Segmen
   std::array<Vector<dim>, dim - 1> axes;
   if (broken.on_smooth_joint)
     {
-      const auto joint = std::find_if(body.smooth_joints.begin(), body.smooth_joints.end(),
-                                      [&](const SmoothJoint<dim>& one) { return one.number == broken.joint; });
-      if (joint == body.smooth_joints.end())
+      const GrainPair ends(broken.grain_1, broken.grain_2);
+      const auto joint =
+        std::lower_bound(body.smooth_joints.begin(), body.smooth_joints.end(), ends,
+                         [](const SmoothJoint<dim>& one, const GrainPair& wanted) { return one.ends() < wanted; });
+      if (joint == body.smooth_joints.end() || joint->number != broken.joint)
         return std::nullopt;
       force = lost_force(*joint);
       normal = Eigen::Map<const Vector<dim>>(joint->normal.data());
@@ -105,6 +112,14 @@ std::optional<Tensor<dim>> moment_of(const Dynamics<dim>& dynamics, const Segmen
 } // namespace
 
 template <int dim>
+void EmissionWatch<dim>::keep_larger(Moment& moment, const Moment& other)
+{
+  const auto squared_norm = [](const Moment& one) { return Eigen::Map<const Tensor<dim>>(one.data()).squaredNorm(); };
+  if (squared_norm(other) > squared_norm(moment))
+    moment = other;
+}
+
+template <int dim>
 EmissionWatch<dim>::EmissionWatch(const Specimen<dim>& body, const EmissionParameters& wanted)
   : least_radius(wanted.event_radius * 2.0 * body.report.mean_radius)
   , duration_over_radius(wanted.event_duration * std::sqrt(2.0 * (1.0 + poisson_ratio)) / wave_speed(body))
@@ -134,6 +149,7 @@ typename EmissionWatch<dim>::Source& EmissionWatch<dim>::source_at(const Vector<
                                  if (!is_near(other))
                                    return false;
                                  events[other.event].part_of = first->event;
+                                 keep_larger(events[first->event].moment, events[other.event].moment);
                                  first->broken.insert(first->broken.end(), other.broken.begin(), other.broken.end());
                                  return true;
                                }),
@@ -169,6 +185,11 @@ void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector
     }
   for (Source& source : sources)
     {
+      // A large event changes slowly, and costs no more than a small one if it is measured as much more seldom.
+      const bool has_grown = std::any_of(cracks.end() - std::ptrdiff_t(breaks.size()), cracks.end(),
+                                         [&](const Crack& crack) { return crack.event == source.event; });
+      if (!has_grown && dynamics.n_steps() % (1 + (source.broken.size() - 1) / most_segments_a_step) != 0)
+        continue;
       Tensor<dim> sum = Tensor<dim>::Zero();
       for (BrokenSegment& broken : source.broken)
         {
@@ -176,9 +197,9 @@ void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector
           moment = moment_of(dynamics, broken).value_or(moment);
           sum += moment;
         }
-      Eigen::Map<Tensor<dim>> largest(events[source.event].moment.data());
-      if (sum.squaredNorm() > largest.squaredNorm())
-        largest = sum;
+      Moment now;
+      Eigen::Map<Tensor<dim>>(now.data()) = sum;
+      keep_larger(events[source.event].moment, now);
     }
 }
 

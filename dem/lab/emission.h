@@ -20,7 +20,8 @@ class EmissionWatch
 public:
   EmissionWatch(const Specimen<dim>& body, const EmissionParameters& wanted);
 
-  /// After a step that made the last of these cracks by its breaks: gives them their events, and measures the events that last.
+  /// Gives the cracks of a step, which are the last of all, their events, and measures the events that last. Called after
+  /// each step, with its breaks.
   void follow(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks, std::vector<Crack>& cracks);
 
   /// The events of these cracks, in the order of their first breaks; the cracks get the numbers of the list, from 1.
@@ -43,12 +44,12 @@ private:
   struct BrokenSegment
   {
     std::uint32_t grain_1, grain_2, joint, segment; ///< the joint by its number
-    bool on_smooth_joint;
+    std::uint64_t on_smooth_joint; ///< 1 or 0; as wide, so that no bit of a checkpoint is left to chance
     std::array<double, dim> place; ///< at the break [m]
     Moment moment;                 ///< as long as its joint is there [N m]
   };
 
-  /// An event that lasts.
+  /// A running event and its broken segments.
   struct Source
   {
     std::uint64_t event = 0;
@@ -58,6 +59,7 @@ private:
     std::vector<BrokenSegment> broken{};
   };
 
+  static void keep_larger(Moment& moment, const Moment& other);
   Source& source_at(const Vector<dim>& place, double time);
 
   double least_radius;          ///< [m]

@@ -32,18 +32,21 @@ Table emission_table(const Series& series)
         double n_events = 0.0, n_breaks = 0.0;
         double largest = -no_end;
         for (const auto* test : group.tests)
-          for (const EmissionEvent& event :
-               events_between(test->record, test->results.strain_at_peak.value, shares[w], shares[w + 1]))
-            {
-              const SourceMechanism source = mechanism(event, test->record.dimension());
-              ++n_events;
-              n_breaks += double(event.n_breaks());
-              magnitudes.push_back(source.magnitude);
-              largest = std::max(largest, source.magnitude);
-              n_of_kind[0] += source.kind == "tensile";
-              n_of_kind[1] += source.kind == "shear";
-              n_of_kind[2] += source.kind == "implosive";
-            }
+          {
+            magnitudes.push_back(std::numeric_limits<double>::quiet_NaN());
+            for (const EmissionEvent& event :
+                 events_between(test->record, test->results.strain_at_peak.value, shares[w], shares[w + 1]))
+              {
+                const SourceMechanism source = mechanism(event, test->record.dimension());
+                ++n_events;
+                n_breaks += double(event.n_breaks());
+                magnitudes.push_back(source.magnitude);
+                largest = std::max(largest, source.magnitude);
+                n_of_kind[0] += source.kind == "tensile";
+                n_of_kind[1] += source.kind == "shear";
+                n_of_kind[2] += source.kind == "implosive";
+              }
+          }
         if (n_events == 0.0)
           continue;
         const auto frequency = magnitude_frequency(magnitudes);

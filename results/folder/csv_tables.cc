@@ -155,7 +155,7 @@ void append_cracks(std::string& text, const std::vector<Crack>& cracks, const st
     }
 }
 
-/// Where the rows of one test go.
+/// The test that a row belongs to, and the place of its rows.
 template <typename Row>
 struct RowsOfTest
 {
@@ -230,7 +230,8 @@ TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::strin
 
 void write_events(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
 {
-  if (std::none_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.events.empty(); }))
+  std::filesystem::remove(file); // of a run before
+  if (std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.record.events.empty(); }))
     return;
   std::string text = "test,scalar_moment_N_m,magnitude,energy_magnitude,isotropic,clvd,double_couple,mechanism,";
   append_names(text, event_columns);

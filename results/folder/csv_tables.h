@@ -32,7 +32,7 @@ std::string read_cracks(const std::filesystem::path& file, std::vector<FinishedT
 
 /// The events of acoustic emission of all tests, with their mechanisms (results/emission.h); nothing where there is none.
 void write_events(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
-/// As read_cracks(); mechanisms follow from the moments.
+/// Reads them as read_cracks() does; mechanisms follow from the moments.
 std::string read_events(const std::filesystem::path& file, std::vector<FinishedTest>& tests);
 
 /// The cracks of a part of a test, under a name of its own.

@@ -158,7 +158,7 @@ std::string remark_on_load_control(const TestsOfRock& tests)
            ? ""
            : fmt::format(
                "Under load control the strength is the load up to which the body follows the machine. Beyond it "
-               "the strain runs away ({}: at a strain of {:.3g} %), and the curve is none of the rock.",
+               "the strain runs away ({}: at a strain of {:.3g} %), and the curve does not describe the rock.",
                (*lost)->name, 100.0 * *(*lost)->results.strain_at_peak.value);
 }
 

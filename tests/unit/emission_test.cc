@@ -245,9 +245,7 @@ void expect_dipole_of_one_bond()
   FlatJointParameters flat_joint;
   flat_joint.bond_tensile_strength_deviation = flat_joint.bond_cohesion_deviation = 0.0;
   install_joints(body, flat_joint);
-  EmissionParameters wanted;
-  wanted.thickness = 1.0;
-  EmissionWatch<dim> watch(body, wanted);
+  EmissionWatch<dim> watch(body, {1.0, 1.0, 1.0});
   Dynamics<dim> dynamics(body, {0.7, 0.8}, ZeroForce::as_placed);
   dynamics.add_grip({0}, Vector<dim>::Zero());
   dynamics.add_grip({1}, 0.1 * Vector<dim>::Unit(0));
@@ -280,6 +278,43 @@ TEST(Emission, OfOneBondPulledApartIsADipole)
 {
   expect_dipole_of_one_bond<2>();
   expect_dipole_of_one_bond<3>();
+}
+
+TEST(Emission, OfAPressedParallelBondHasAllThatItCarried)
+{
+  // The bond is pressed and sheared to its break, and goes as a whole: f = k_n A U_n n + k_s A U_s t on grain 2.
+  auto body = placed_specimen<2>({radius, radius}, {{{0.5, 0.5 + spacing}, {0.5, 0.5}}});
+  body.report.mean_radius = radius;
+  body.bulk_density = 3000.0;
+  ParallelBondParameters bond;
+  bond.bond_cohesion = 10e6;
+  bond.bond_cohesion_deviation = 0.0;
+  install_joints(body, bond);
+  EmissionWatch<2> watch(body, {1.0, 2.0, 1.0});
+  Dynamics<2> dynamics(body, {0.7, 0.8}, ZeroForce::as_placed);
+  dynamics.add_grip({0}, Vector<2>::Zero());
+  dynamics.add_grip({1}, {-0.02, 0.1});
+  std::vector<Crack> cracks;
+  double across = 0.0, along = 0.0;
+  for (int n = 0; n < 2000; ++n)
+    {
+      const auto breaks = dynamics.step();
+      const auto& joints = dynamics.specimen().joints;
+      if (!breaks.empty())
+        {
+          across = joints.normal_stiffness[0] * joints.face_area(0) * joints.opening[0];
+          along = joints.shear_stiffness[0] * joints.face_area(0) * joints.slip[0][0];
+          cracks.push_back(crack(dynamics, breaks.front(), 0.0));
+        }
+      watch.follow(dynamics, breaks, cracks);
+    }
+  const auto events = watch.catalogue(cracks, 0.0);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].n_shear, 1u);
+  EXPECT_LT(across, 0.0);
+  const double tolerance = 1e-2 * std::abs(along) * spacing; // the branch has turned by strains
+  EXPECT_NEAR(events[0].moment[0], across * spacing, tolerance);
+  EXPECT_NEAR(events[0].moment[1], 0.5 * along * spacing, tolerance);
 }
 
 TEST(Emission, OfATestHasEveryBreakAndItsEnergyOnce)

@@ -42,7 +42,8 @@ SetUpTest<dim> set_up_tilt(Specimen<dim> specimen, double /*confining_pressure*/
   // A loose grain falls from one side of its void to the other while the plate tilts, for milliseconds each time. The
   // body carries its weight instead.
   const double whole = specimen.grains.volume(specimen.thickness);
-  specimen = part_of(std::move(specimen), grains_of_body(specimen));
+  const std::vector<bool> kept = grains_of_body(specimen);
+  specimen = part_of(std::move(specimen), kept);
   const double heavier = whole / specimen.grains.volume(specimen.thickness);
   for (auto* const of_grains : {&specimen.grains.mass, &specimen.grains.moment_of_inertia})
     for (double& inertia : *of_grains)

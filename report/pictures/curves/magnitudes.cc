@@ -25,13 +25,16 @@ Pictures magnitude_picture(const SameTests& same)
     {
       std::vector<double> magnitudes; // in the order of the events, test after test
       for (const auto* test : of.group.tests)
-        for (const EmissionEvent& event :
-             events_between(test->record, test->results.strain_at_peak.value, -infinity, infinity))
-          if (const double one = mechanism(event, test->record.dimension()).magnitude; std::isfinite(one))
-            magnitudes.push_back(one);
+        {
+          magnitudes.push_back(std::numeric_limits<double>::quiet_NaN());
+          for (const EmissionEvent& event :
+               events_between(test->record, test->results.strain_at_peak.value, -infinity, infinity))
+            magnitudes.push_back(mechanism(event, test->record.dimension()).magnitude);
+        }
+      const auto frequency = magnitude_frequency(magnitudes);
+      std::erase_if(magnitudes, [](const double one) { return !std::isfinite(one); });
       if (magnitudes.empty())
         continue;
-      const auto frequency = magnitude_frequency(magnitudes);
       std::sort(magnitudes.begin(), magnitudes.end(), std::greater<>());
       const std::string beginning = same.size() > 1 ? of.series->label + ", " : "";
       ChartSeries counts{.label = fmt::format("{}{} events", beginning, magnitudes.size()),
