@@ -427,7 +427,8 @@ TEST(Fault, KilledAtRandomMomentsTwiceInARowItIsResumedToTheSameBits)
       const auto outcome = run_feldspar(
         folder.path(), (has_begun ? "lab --resume " + out : "lab rock.prm --force --output " + out) + " --quiet");
       EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-      for (const char* file : {"curves/direct_tension_seed_1.csv", "cracks.csv", "grains/direct_tension_seed_1.csv"})
+      for (const char* file :
+           {"curves/direct_tension_seed_1.csv", "cracks.csv", "emission.csv", "grains/direct_tension_seed_1.csv"})
         EXPECT_EQ(content(folder.path() / out / file), content(folder.path() / "whole" / file)) << out << "/" << file;
       expect_nothing_half_written(folder.path() / out);
       EXPECT_TRUE(fs::exists(folder.path() / out / "report.html"));

@@ -32,7 +32,7 @@ class Commands(unittest.TestCase):
             run = feldspar.lab(feldspar.Input(ENTRIES), folder / "by_python")
             files = sorted(
                 one.relative_to(run.folder)
-                for kind in ("curves/*.csv", "grains/*.csv", "cracks.csv")
+                for kind in ("curves/*.csv", "grains/*.csv", "cracks.csv", "emission.csv")
                 for one in run.folder.glob(kind)
             )
             self.assertEqual(len(files), 4 + 4 + 1)
