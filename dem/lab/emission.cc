@@ -33,25 +33,26 @@ struct FaceForce
 template <int dim>
 FaceForce<dim> lost_force(const Joints<dim>& joints, const std::size_t joint, const unsigned int number)
 {
-  const auto [segment, offset] = place_segment(joints.face(joint), joints.elements[number]);
+  const auto placed = place_segment(joints.face(joint), joints.elements[number]);
+  const auto& segment = placed.segment;
   std::array<double, n_rotations<dim>> rotation;
   for (std::size_t c = 0; c < rotation.size(); ++c)
     rotation[c] = joints.rotation[c][joint];
   std::array<double, dim - 1> slip;
   for (std::size_t c = 0; c < slip.size(); ++c)
     slip[c] = joints.slip[c][joint];
-  const double gap = flat_joint::gap_at(joints.opening[joint], rotation, offset);
+  const double gap = flat_joint::gap_at(joints.opening[joint], rotation, placed.offset);
   const double slope = dim == 2 ? rotation[0] : 0.0;
-  slip = flat_joint::slip_at(slip, rotation[0], offset);
+  slip = flat_joint::slip_at(slip, rotation[0], placed.offset);
   const auto shear = shear_stress(joints, number, joint);
-  // A parallel bond goes with its face; the contact of its grains, which stays, is no part of it.
-  const bool is_gone = std::visit([](const auto& law) { return !law.face_outlives_bonds; }, joints.law);
+  // A contact beside the bond, which makes a law not linear, presses with it and without it.
+  const bool contact_stays = std::visit([](const auto& law) { return !law.linear_while_bonded; }, joints.law);
   const auto carried = [&](const bool bonded) {
     return flat_joint::normal_response(segment, gap, slope, bonded).force;
   };
-  FaceForce<dim> force{(is_gone ? 0.0 : carried(false)) - carried(true), {}};
+  FaceForce<dim> force{(contact_stays ? 0.0 : carried(false)) - carried(true), {}};
   for (std::size_t c = 0; c < slip.size(); ++c)
-    force.along[c] = ((is_gone ? 0.0 : shear[c]) + segment.shear_stiffness * slip[c]) * segment.area();
+    force.along[c] = (shear[c] + segment.shear_stiffness * slip[c]) * segment.area();
   return force;
 }
 
