@@ -35,7 +35,7 @@ class Commands(unittest.TestCase):
                 for kind in ("curves/*.csv", "grains/*.csv", "cracks.csv", "emission.csv")
                 for one in run.folder.glob(kind)
             )
-            self.assertEqual(len(files), 4 + 4 + 1)
+            self.assertEqual(len(files), 4 + 4 + 2)
             equal, unequal, failed = filecmp.cmpfiles(folder / "by_command", run.folder, map(str, files), shallow=False)
             self.assertEqual((unequal, failed), ([], []))
             self.assertEqual(len(equal), len(files))
