@@ -10,11 +10,11 @@
 #include "coupling/sample/sample_entries.h"
 #include "dem/dynamics/entries.h"
 #include "dem/flaws/entries.h"
+#include "dem/lab/emission_entries.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/laws/entries.h"
 #include "dem/laws/joint_laws.h"
 #include "dem/specimen/entries.h"
-#include "laboratory/emission.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

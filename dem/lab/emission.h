@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
-#include "laboratory/emission.h"
+#include "dem/lab/emission_entries.h"
 #include "laboratory/record.h"
 
 #include <array>

@@ -125,6 +125,7 @@ const std::vector<Piece> pieces{
    "beishan-granite/rate-study",
    {"rate-study"},
    {third_seed, with_values("1 1/s"), no_reference}},
+  {"EmissionOfGranite", "emission-beishan/windows", {"windows"}, {with_values("1 || 2")}},
   {"GraniteWithAnInclinedSlot",
    "flawed-granite/flaw",
    {"flaw"},

@@ -5,6 +5,7 @@
 #include "app/input/parameter_table.h"
 #include "app/input/variant_names.h"
 #include "base/input_error.h"
+#include "dem/lab/emission_entries.h"
 #include "dem/lab/protocols/bending.h"
 #include "dem/lab/protocols/brazilian.h"
 #include "dem/lab/protocols/direct_shear.h"
@@ -109,6 +110,11 @@ end
 subsection Dynamics
   set Damping = 0
   set Time step safety = 0.5
+end
+subsection Emission
+  set Event radius = 0.7
+  set Event duration = 3
+  set Thickness = 30 mm
 end
 subsection Tests
   set List = uniaxial_compression
@@ -414,6 +420,9 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.tests.of<ShearParameters>().sampling_strain, 3e-5);
   EXPECT_EQ(input.tests.of<TiltParameters>().strain_rate, 50.0);
   EXPECT_EQ(input.tests.of<TiltParameters>().sampling_strain, 1e-3);
+  EXPECT_EQ(input.tests.of<EmissionParameters>().event_radius, 0.7);
+  EXPECT_EQ(input.tests.of<EmissionParameters>().event_duration, 3.0);
+  EXPECT_DOUBLE_EQ(input.tests.of<EmissionParameters>().thickness.value(), 0.03);
   EXPECT_EQ(input.tests.gravity, (std::vector{0.5, -9.81}));
   EXPECT_DOUBLE_EQ(input.tests.of<CompressionParameters>().machine_stiffness.value(), 3e8);
   EXPECT_EQ(input.tests.of<CompressionParameters>().loading_rate->of, LoadingRate::Of::travel);
