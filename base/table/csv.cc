@@ -157,8 +157,11 @@ CsvReader::CsvReader(const std::filesystem::path& file, const IsHeader& is_heade
   units.assign(columns.size(), 1.0);
   if (is_header) // of a machine's many columns those that are looked for must be there once
     return;
+  constexpr std::string_view of_numbers =
+    "+-.0123456789"; // a table without a header is told so where names are looked for
   for (auto column = columns.begin(); column != columns.end(); ++column)
-    if (!column->empty() && std::find(columns.begin(), column, *column) != column)
+    if (!column->empty() && of_numbers.find(column->front()) == of_numbers.npos &&
+        std::find(columns.begin(), column, *column) != column)
       throw InputError(fmt::format("{}:{}: the column {} is there twice", name, header_line, in_quotes(*column)));
 }
 
