@@ -32,7 +32,7 @@ public:
   void transfer(Archive& archive);
 
 private:
-  using Moment = std::array<double, dim * dim>;
+  using Moment = std::array<double, std::size_t(dim) * dim>;
 
   struct Event
   {
