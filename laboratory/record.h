@@ -42,6 +42,7 @@ struct Crack
 struct EmissionEvent
 {
   std::uint64_t number = 0;         ///< from 1, in the order of the first breaks
+  std::uint64_t step = 0;           ///< of the first break
   double time = 0.0;                ///< of the first break, since the strain was zero [s]
   double axial_strain = 0.0;        ///< of the specimen at the first break
   std::uint64_t n_tension = 0;      ///< breaks in tension

@@ -72,6 +72,15 @@ std::vector<EmissionEvent> events_between(const TestRecord& record, const std::o
   return found;
 }
 
+std::vector<double> magnitudes_of(const std::vector<EmissionEvent>& events, const int dimension)
+{
+  std::vector<double> magnitudes;
+  magnitudes.reserve(events.size());
+  for (const EmissionEvent& event : events)
+    magnitudes.push_back(mechanism(event, dimension).magnitude);
+  return magnitudes;
+}
+
 double energy_magnitude(const EmissionEvent& event)
 {
   return event.released_energy > 0.0 ? std::log10(event.released_energy) / 1.5 - 2.9

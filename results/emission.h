@@ -23,6 +23,9 @@ struct SourceMechanism
 
 SourceMechanism mechanism(const EmissionEvent& event, int dimension);
 
+/// The magnitudes of events of one test, in their order; NaN without a moment.
+std::vector<double> magnitudes_of(const std::vector<EmissionEvent>& events, int dimension);
+
 /// M_e = ⅔ log10 E − 2.9, E in J (Choy and Boatwright 1995), of all the energy that the breaks released, of which a part is
 /// radiated; NaN without any.
 double energy_magnitude(const EmissionEvent& event);

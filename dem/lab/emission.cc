@@ -134,9 +134,7 @@ EmissionWatch<dim>::EmissionWatch(const Specimen<dim>& body, const EmissionParam
 template <int dim>
 typename EmissionWatch<dim>::Source& EmissionWatch<dim>::source_at(const Vector<dim>& place, const double time)
 {
-  const auto is_near = [&](const Source& source) {
-    return (place - Eigen::Map<const Vector<dim>>(source.centre.data())).norm() <= source.radius;
-  };
+  const auto is_near = [&](const Source& source) { return (place - source.centre).norm() <= source.radius; };
   const auto first = std::find_if(sources.begin(), sources.end(), is_near);
   if (first == sources.end())
     {
@@ -159,6 +157,18 @@ typename EmissionWatch<dim>::Source& EmissionWatch<dim>::source_at(const Vector<
 }
 
 template <int dim>
+void EmissionWatch<dim>::enclose(Source& source) const
+{
+  source.centre.setZero();
+  for (const BrokenSegment& one : source.broken)
+    source.centre += Eigen::Map<const Vector<dim>>(one.place.data()) / double(source.broken.size());
+  double farthest = 0.0;
+  for (const BrokenSegment& one : source.broken)
+    farthest = std::max(farthest, (Eigen::Map<const Vector<dim>>(one.place.data()) - source.centre).norm());
+  source.radius = least_radius + farthest;
+}
+
+template <int dim>
 void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks,
                                 std::vector<Crack>& cracks)
 {
@@ -174,14 +184,7 @@ void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector
       Source& source = source_at(Eigen::Map<const Vector<dim>>(broken.place.data()), now);
       crack.event = source.event;
       source.broken.push_back(broken);
-      Eigen::Map<Vector<dim>> centre(source.centre.data());
-      centre.setZero();
-      for (const BrokenSegment& one : source.broken)
-        centre += Eigen::Map<const Vector<dim>>(one.place.data()) / double(source.broken.size());
-      double farthest = 0.0;
-      for (const BrokenSegment& one : source.broken)
-        farthest = std::max(farthest, (Eigen::Map<const Vector<dim>>(one.place.data()) - centre).norm());
-      source.radius = least_radius + farthest;
+      enclose(source);
       source.end = now + duration_over_radius * source.radius;
     }
   for (Source& source : sources)
@@ -218,6 +221,7 @@ std::vector<EmissionEvent> EmissionWatch<dim>::catalogue(std::vector<Crack>& cra
       if (is_new)
         {
           EmissionEvent one{.number = list.size() + 1,
+                            .step = crack.step,
                             .time = events[event].time - start,
                             .axial_strain = crack.axial_strain};
           const Eigen::Map<const Tensor<dim>> moment(events[event].moment.data());
@@ -260,10 +264,8 @@ void EmissionWatch<dim>::transfer(Archive& archive)
       auto group = archive.subgroup(fmt::format("source_{}", k));
       group.value("event", source.event);
       group.value("end", source.end);
-      group.value("radius", source.radius);
-      for (int c = 0; c < dim; ++c)
-        group.value(fmt::format("centre_{}", "xyz"[c]), source.centre[c]);
       group.bytes("broken", source.broken);
+      enclose(source);
     }
 }
 

@@ -53,13 +53,15 @@ private:
   struct Source
   {
     std::uint64_t event = 0;
-    double end = 0.0;                 ///< time, unless it grows [s]
-    double radius = 0.0;              ///< [m]
-    std::array<double, dim> centre{}; ///< mean of the places of its breaks [m]
+    double end = 0.0;                         ///< time, unless it grows [s]
+    double radius = 0.0;                      ///< [m]
+    Vector<dim> centre = Vector<dim>::Zero(); ///< mean of the places of its breaks [m]
     std::vector<BrokenSegment> broken{};
   };
 
   static void keep_larger(Moment& moment, const Moment& other);
+  /// Sets centre and radius by the breaks.
+  void enclose(Source& source) const;
   Source& source_at(const Vector<dim>& place, double time);
 
   double least_radius;          ///< [m]

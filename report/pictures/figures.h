@@ -24,7 +24,7 @@ using FigureOfSameTests = Pictures(const std::vector<SeriesGroup>&);
 FigureOfSameTests stress_picture;      ///< stress over axial, lateral and volumetric strain
 FigureOfSameTests crack_count_picture; ///< broken segments
 FigureOfSameTests energy_picture;      ///< partition of the energy in one of the series
-FigureOfSameTests crack_rate_picture;  ///< cracks and released energy per strain, as acoustic emission is shown
+FigureOfSameTests crack_rate_picture;  ///< cracks and released energy per strain
 FigureOfSameTests magnitude_picture;   ///< number of events of acoustic emission over their magnitude
 inline constexpr std::array curve_figures{stress_picture, crack_count_picture, energy_picture, crack_rate_picture,
                                           magnitude_picture};

@@ -3,7 +3,6 @@
 #include "base/quoted.h"
 #include "base/table/csv.h"
 #include "base/whole_file.h"
-#include "results/emission.h"
 #include "results/folder/table_columns.h"
 
 #include <fmt/format.h>
@@ -233,28 +232,31 @@ void write_events(const std::vector<FinishedTest>& tests, const std::filesystem:
   std::filesystem::remove(file); // of a run before
   if (std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.record.events.empty(); }))
     return;
-  std::string text = "test,scalar_moment_N_m,magnitude,energy_magnitude,isotropic,clvd,double_couple,mechanism,";
-  append_names(text, event_columns);
+  std::string text;
+  append_names(text, emission_columns);
+  text.insert(text.size() - 1, ",test,kind");
   for (const auto& test : tests)
     for (const EmissionEvent& event : test.record.events)
       {
         const SourceMechanism source = mechanism(event, test.record.dimension());
-        text += test.name;
-        for (const double number : {source.scalar_moment, source.magnitude, energy_magnitude(event), source.isotropic,
-                                    source.clvd, source.double_couple})
-          text += std::isfinite(number) ? fmt::format(",{}", number) : ",";
-        text += fmt::format(",{},", source.kind);
-        append_row(text, event_columns, event, test.record.kind.sign);
+        append_row(text, emission_columns, EmissionRow{event, event.n_breaks(), source, energy_magnitude(event)},
+                   test.record.kind.sign);
+        text.insert(text.size() - 1, fmt::format(",{},{}", test.name, source.kind));
       }
   write_whole_file(file, text);
 }
 
 std::string read_events(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
 {
-  std::vector<RowsOfTest<EmissionEvent>> all;
-  for (auto& test : tests)
-    all.push_back({test.name, test.record.kind, &test.record.events});
-  return read_rows_into(file, event_columns, all, [](EmissionEvent&, const CsvReader&) {});
+  std::vector<std::vector<EmissionRow>> rows(tests.size());
+  std::vector<RowsOfTest<EmissionRow>> all;
+  for (std::size_t k = 0; k < tests.size(); ++k)
+    all.push_back({tests[k].name, tests[k].record.kind, &rows[k]});
+  std::string remark = read_rows_into(file, emission_columns, all, [](EmissionRow&, const CsvReader&) {});
+  for (std::size_t k = 0; k < tests.size(); ++k)
+    for (const EmissionRow& row : rows[k])
+      tests[k].record.events.push_back(row.event);
+  return remark;
 }
 
 void write_steps(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)

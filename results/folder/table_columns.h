@@ -3,6 +3,7 @@
 #include "laboratory/appearance.h"
 #include "laboratory/column.h"
 #include "laboratory/record.h"
+#include "results/emission.h"
 
 #include <array>
 #include <string_view>
@@ -26,24 +27,41 @@ inline constexpr Column<Crack> crack_columns[] = {
   column<Crack, &Crack::on_smooth_joint>("on_smooth_joint", "", added_later),
   column<Crack, &Crack::event>("event", "", added_later)};
 
-/// The columns of emission.csv but for the name of the test and what follows from the others.
-inline constexpr Column<EmissionEvent> event_columns[] = {
-  column<EmissionEvent, &EmissionEvent::number>("event"),
-  column<EmissionEvent, &EmissionEvent::time>("time_s"),
-  column<EmissionEvent, &EmissionEvent::axial_strain>("axial_strain", "", positive_in_test),
-  column<EmissionEvent, &EmissionEvent::n_tension>("n_tension"),
-  column<EmissionEvent, &EmissionEvent::n_shear>("n_shear"),
-  column<EmissionEvent, &EmissionEvent::released_energy>("released_energy_J"),
-  column<EmissionEvent, &EmissionEvent::centroid, 0>("x_m"),
-  column<EmissionEvent, &EmissionEvent::centroid, 1>("y_m"),
-  column<EmissionEvent, &EmissionEvent::centroid, 2>("z_m"),
-  column<EmissionEvent, &EmissionEvent::extent>("extent_m"),
-  column<EmissionEvent, &EmissionEvent::moment, 0>("moment_xx_N_m"),
-  column<EmissionEvent, &EmissionEvent::moment, 1>("moment_xy_N_m"),
-  column<EmissionEvent, &EmissionEvent::moment, 2>("moment_xz_N_m"),
-  column<EmissionEvent, &EmissionEvent::moment, 3>("moment_yy_N_m"),
-  column<EmissionEvent, &EmissionEvent::moment, 4>("moment_yz_N_m"),
-  column<EmissionEvent, &EmissionEvent::moment, 5>("moment_zz_N_m")};
+/// A row of emission.csv: an event and what follows from it.
+struct EmissionRow
+{
+  EmissionEvent event;
+  std::uint64_t n_breaks;
+  SourceMechanism source;
+  double energy_magnitude;
+};
+
+/// The columns of emission.csv but for the name of the test and the kind.
+inline constexpr Column<EmissionRow> emission_columns[] = {
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::number>("event"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::step>("step"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::axial_strain>("axial_strain", "", positive_in_test),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::centroid, 0>("x_m"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::centroid, 1>("y_m"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::centroid, 2>("z_m"),
+  column<EmissionRow, &EmissionRow::n_breaks>("n_breaks"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::released_energy>("energy_J"),
+  column<EmissionRow, &EmissionRow::source, &SourceMechanism::scalar_moment>("moment_Nm"),
+  column<EmissionRow, &EmissionRow::source, &SourceMechanism::magnitude>("magnitude", "", perhaps_nan),
+  column<EmissionRow, &EmissionRow::source, &SourceMechanism::isotropic>("isotropic_share"),
+  column<EmissionRow, &EmissionRow::source, &SourceMechanism::double_couple>("double_couple_share"),
+  column<EmissionRow, &EmissionRow::source, &SourceMechanism::clvd>("clvd_share"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::time>("time_s"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::extent>("extent_m"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::n_tension>("n_tension"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::n_shear>("n_shear"),
+  column<EmissionRow, &EmissionRow::energy_magnitude>("energy_magnitude", "", perhaps_nan),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::moment, 0>("moment_xx_Nm"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::moment, 1>("moment_xy_Nm"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::moment, 2>("moment_xz_Nm"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::moment, 3>("moment_yy_Nm"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::moment, 4>("moment_yz_Nm"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::moment, 5>("moment_zz_Nm")};
 
 /// The columns of grains/NAME.csv. `group`: the name of the column of the groups, which outlives the columns.
 inline std::array<Column<GrainPicture>, 10> grain_columns(const std::string_view group)

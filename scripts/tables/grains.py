@@ -224,6 +224,12 @@ def emission(cells):
     return [None, None, *(row[column] for column in columns)]
 
 
+def emission_to_peak(cells):
+    tests = of("emission-beishan/granite", PRESSED if cells[0] == "0" else f"triaxial_compression_{cells[0]}_MPa")
+    return [None, shown(values(tests, "n_events_at_peak", 1), 0), shown(values(tests, "b_value", 1), 2),
+            shown(values(tests, "b_positive", 1), 2), shown(values(tests, "shear_share_at_peak", 0.01), 1)]
+
+
 def emission_windows(cells):
     (test,) = (test for test in read("emission-beishan/windows")["tests"]
                if f"radius = {cells[0]}," in test["variant"] and test["variant"].endswith(f"= {cells[1]}"))
@@ -435,6 +441,7 @@ TABLES = {
     "ways to break": ways_to_break,
     "clump size": clump_size,
     "emission": emission,
+    "emission up to the peak": emission_to_peak,
     "emission windows": emission_windows,
     "direct shear": direct_shear,
     "direct shear lines": shear_lines,

@@ -103,7 +103,7 @@ void read_results(const std::string& content, const fs::path& folder)
   const fs::path results = folder / "results";
   for (const char* part : {"curves", "grains", "fields"})
     fs::create_directories(results / part);
-  write_files(content, {"summary.json", "curves/a.csv", "grains/a.csv", "cracks.csv", "fields/a.xdmf"}, results);
+  write_files(content, {"summary.json", "curves/a.csv", "grains/a.csv", "cracks.csv", "emission.csv", "fields/a.xdmf"}, results);
   for (const Series& series : read_result_folder(results, test_kinds()))
     for (const std::string& problem : series.problems)
       if (const std::string objection = objection_to(problem); !objection.empty())

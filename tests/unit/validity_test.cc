@@ -363,6 +363,8 @@ std::vector<Series> read_with(const std::string& table, const std::string& from,
   test.appearance.grains_at_end.push_back({{0.0125, 0.0125, 0.0}, {0.0125, 0.0125, 0.0}, 0.00075, 0});
   test.record.cracks.push_back(
     {CrackKind::tension, 3, 0, 700, -7e-4, {0.0175, 0.0225, 0.0}, {1.0, 0.0, 0.0}, 3e-4, 0.1});
+  test.record.events.push_back(
+    {1, 700, 2e-4, -7e-4, 1, 0, 0.1, {0.0175, 0.0235, 0.0}, 0.0, {1.0, 0.5, 0.0, 3.0, 0.0, 0.0}});
   for (CurveSample& row : test.record.curve)
     row.gauge_lateral_strain = row.gauge_volumetric_strain = std::numeric_limits<double>::quiet_NaN();
   const TemporaryFolder folder;
@@ -374,6 +376,28 @@ std::vector<Series> read_with(const std::string& table, const std::string& from,
       folder.write(table, text);
     }
   return read_result_folder(folder.path(), test_kinds());
+}
+
+TEST(ResultFolder, HasTheEventsOfAcousticEmission)
+{
+  const std::string first_columns =
+    "event,step,axial_strain,x_m,y_m,z_m,n_breaks,energy_J,moment_Nm,magnitude,isotropic_share,"
+    "double_couple_share,clvd_share,";
+  const auto series = read_with("emission.csv", first_columns, first_columns);
+  ASSERT_EQ(series[0].tests[0].record.events.size(), 1u);
+  const EmissionEvent& event = series[0].tests[0].record.events[0];
+  EXPECT_EQ(event.number, 1u);
+  EXPECT_EQ(event.step, 700u);
+  EXPECT_EQ(event.time, 2e-4);
+  EXPECT_EQ(event.axial_strain, -7e-4);
+  EXPECT_EQ(event.n_breaks(), 1u);
+  EXPECT_EQ(event.released_energy, 0.1);
+  EXPECT_EQ(event.centroid, (std::array{0.0175, 0.0235, 0.0}));
+  EXPECT_EQ(event.moment, (std::array{1.0, 0.5, 0.0, 3.0, 0.0, 0.0}));
+
+  const auto spoilt = read_with("emission.csv", "0.0235", "inf");
+  EXPECT_TRUE(spoilt[0].tests[0].record.events.empty());
+  EXPECT_NE(spoilt[0].problems[0].find("emission.csv: line 2: y_m is inf"), std::string::npos);
 }
 
 TEST(NumbersThatAreNone, InTablesAreNamedAndNeverReachThePage)

@@ -163,7 +163,7 @@ Pictures crack_rate_picture(const SameTests& same)
     }
   return curve_picture(
     std::move(chart), same, "_crack_rate",
-    std::string("Crack rate, to be held against acoustic emission: cracks and the energy they released, per strain") +
+    std::string("Rate of the hits of acoustic emission: cracks and the energy they released, per strain") +
       (any_has_several(same) ? "; mean of the tests of a series" : ""),
     fmt::format("Histogram of cracks and of the energy they released over {} in {}.",
                 same.front().group.kind.channel.strain_name, same.front().group.title()));

@@ -1,3 +1,4 @@
+#include "base/append.h"
 #include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
@@ -27,9 +28,9 @@ Pictures magnitude_picture(const SameTests& same)
       for (const auto* test : of.group.tests)
         {
           magnitudes.push_back(std::numeric_limits<double>::quiet_NaN());
-          for (const EmissionEvent& event :
-               events_between(test->record, test->results.strain_at_peak.value, -infinity, infinity))
-            magnitudes.push_back(mechanism(event, test->record.dimension()).magnitude);
+          append(magnitudes,
+                 magnitudes_of(events_between(test->record, test->results.strain_at_peak.value, -infinity, infinity),
+                               test->record.dimension()));
         }
       const auto frequency = magnitude_frequency(magnitudes);
       std::erase_if(magnitudes, [](const double one) { return !std::isfinite(one); });
