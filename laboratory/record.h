@@ -38,12 +38,13 @@ struct Crack
   std::uint64_t event = 0;      ///< number of the event of acoustic emission; 0: none
 };
 
-/// An event of acoustic emission: breaks of segments near each other in place and time.
+/// An event of acoustic emission: breaks of segments near each other in place and time; on finite elements those of one
+/// representative volume in one step.
 struct EmissionEvent
 {
   std::uint64_t number = 0;         ///< from 1, in the order of the first breaks
   std::uint64_t step = 0;           ///< of the first break
-  double time = 0.0;                ///< of the first break, since the strain was zero [s]
+  double time = 0.0;                ///< of the first break, since the strain was zero [s]; NaN where there is no time
   double axial_strain = 0.0;        ///< of the specimen at the first break
   std::uint64_t n_tension = 0;      ///< breaks in tension
   std::uint64_t n_shear = 0;        ///< breaks in shear
@@ -102,7 +103,7 @@ struct TestRecord
   SpecimenReport specimen;
   std::vector<CurveSample> curve;
   std::vector<Crack> cracks;
-  std::vector<EmissionEvent> events;  ///< of acoustic emission; none without grains
+  std::vector<EmissionEvent> events;  ///< of acoustic emission; none of a material without grains
   std::optional<Fragments> fragments; ///< none without grains
   double bulk_density = 0.0;          ///< [kg/m³]
   PeakDemands peak_demands = {};      ///< on its highest stress

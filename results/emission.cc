@@ -61,12 +61,12 @@ std::vector<EmissionEvent> events_between(const TestRecord& record, const std::o
     return found;
   auto row = curve.begin();
   double highest = deviator(*row);
-  for (const EmissionEvent& event : record.events) // in the order of their times
+  for (const EmissionEvent& event : record.events) // in the order of their steps
     {
-      for (; row != peak && row->time < event.time; ++row)
+      for (; row != peak && row->step < event.step; ++row)
         highest = std::max(highest, deviator(*row));
       const double share = highest / deviator(*peak);
-      if (event.time <= peak->time && share >= from && share < to)
+      if (event.step <= peak->step && share >= from && share < to)
         found.push_back(event);
     }
   return found;
@@ -79,6 +79,13 @@ std::vector<double> magnitudes_of(const std::vector<EmissionEvent>& events, cons
   for (const EmissionEvent& event : events)
     magnitudes.push_back(mechanism(event, dimension).magnitude);
   return magnitudes;
+}
+
+HudsonPlace hudson_place(const EmissionEvent& event, const int dimension)
+{
+  const Eigen::Vector3d m = eigenvalues(event, dimension);
+  const double largest = m.cwiseAbs().maxCoeff();
+  return {-2.0 / 3.0 * (m[0] + m[2] - 2.0 * m[1]) / largest, m.mean() / largest};
 }
 
 double energy_magnitude(const EmissionEvent& event)

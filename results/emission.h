@@ -26,6 +26,16 @@ SourceMechanism mechanism(const EmissionEvent& event, int dimension);
 /// The magnitudes of events of one test, in their order; NaN without a moment.
 std::vector<double> magnitudes_of(const std::vector<EmissionEvent>& events, int dimension);
 
+/// The place of an event in the plot of Hudson, Pearce and Rogers (1989), by the eigenvalues M_1 ≥ M_2 ≥ M_3 over the largest
+/// magnitude of them: u = −⅔ (M_1 + M_3 − 2 M_2), v = ⅓ (M_1 + M_2 + M_3). NaN without a moment.
+struct HudsonPlace
+{
+  double u;
+  double v;
+};
+
+HudsonPlace hudson_place(const EmissionEvent& event, int dimension);
+
 /// M_e = ⅔ log10 E − 2.9, E in J (Choy and Boatwright 1995), of all the energy that the breaks released, of which a part is
 /// radiated; NaN without any.
 double energy_magnitude(const EmissionEvent& event);

@@ -21,7 +21,9 @@ struct TestResults
   Figure poissons_ratio_secant;
   Figure crack_initiation_stress;
   Figure crack_initiation_stress_lateral;
+  Figure crack_initiation_stress_emission;
   Figure crack_damage_stress;
+  Figure crack_damage_stress_emission;
   Figure post_peak_drop;
   Figure residual_deviator_ratio;
   std::uint64_t n_tension_cracks = 0;
@@ -70,7 +72,9 @@ Figure poissons_ratio_initial(const RisingBranch& branch);
 Figure poissons_ratio_secant(const RisingBranch& branch);
 Figure crack_initiation_stress(const RisingBranch& branch);
 Figure crack_initiation_stress_lateral(const RisingBranch& branch);
+Figure crack_initiation_stress_emission(const RisingBranch& branch);
 Figure crack_damage_stress(const RisingBranch& branch);
+Figure crack_damage_stress_emission(const RisingBranch& branch);
 Figure post_peak_drop(const RisingBranch& branch);
 Figure residual_deviator_ratio(const RisingBranch& branch);
 Figure n_tension_cracks_at_peak(const RisingBranch& branch);
@@ -143,10 +147,6 @@ inline constexpr TestsThatGive smooth_joints{"of bodies with smooth joints", [](
                                              }};
 inline constexpr TestsThatGive notch{
   "of notched bodies", [](const TestRecord& test) { return test.notch ? nullptr : "the test has no notch"; }};
-inline constexpr TestsThatGive emission{"on grains", [](const TestRecord& test) {
-                                          return test.body == TestBody::grains ? one_peak.objection(test)
-                                                                               : "events are of tests on grains";
-                                        }};
 inline constexpr TestsThatGive sheared_plane{"direct shear", [](const TestRecord& test) {
                                                return test.kind.pressure_acts_across ? nullptr
                                                                                      : "the test shears no plane";
@@ -239,10 +239,19 @@ inline constexpr TestQuantity test_quantities[] = {
               "crack_initiation_stress_lateral_Pa", "crack initiation stress, lateral strain", display::megapascals(),
               "where the lateral expansion lies furthest below the straight line from the start to crack damage",
               tests_with::compression, NeedsBesidesCurve::lateral_strain),
+  row::figure(&TestResults::crack_initiation_stress_emission, evaluation::crack_initiation_stress_emission,
+              "crack_initiation_stress_emission_Pa", "crack initiation stress, acoustic emission",
+              display::megapascals(),
+              "where the number of cracks lies furthest below the straight line from the start to crack damage",
+              tests_with::compression, NeedsBesidesCurve::cracks),
   row::figure(&TestResults::crack_damage_stress, evaluation::crack_damage_stress, "crack_damage_stress_Pa",
               "crack damage stress", display::megapascals(), "stress at which the volume of the gauge is smallest",
               tests_with::compression, NeedsBesidesCurve::lateral_strain, PageColumn::always,
               InStudies{"crack_damage"}),
+  row::figure(&TestResults::crack_damage_stress_emission, evaluation::crack_damage_stress_emission,
+              "crack_damage_stress_emission_Pa", "crack damage stress, acoustic emission", display::megapascals(),
+              "where the energy released by breaks lies furthest below the straight line from the start to the peak",
+              tests_with::compression, NeedsBesidesCurve::cracks),
   row::figure(&TestResults::post_peak_drop, evaluation::post_peak_drop, "post_peak_drop",
               "drop of the stress after the peak, over the peak", display::plain(3),
               "peak minus last stress, over peak", tests_with::fall, NeedsBesidesCurve::fall,
@@ -276,15 +285,15 @@ inline constexpr TestQuantity test_quantities[] = {
               tests_with::smooth_joints, NeedsBesidesCurve::cracks),
   row::figure(&TestResults::n_events_at_peak, evaluation::n_events_at_peak, "n_events_at_peak",
               "events of acoustic emission up to the peak", display::plain(0),
-              "breaks near each other in place and time", tests_with::emission),
+              "breaks near each other in place and time", tests_with::one_peak),
   row::figure(&TestResults::b_value, evaluation::b_value, "b_value", "b-value of the emission up to the peak",
               display::plain(2),
               "fall of log10 of the number of events with the moment magnitude, by the mean magnitude",
-              tests_with::emission, InStudies{"b_value"}),
+              tests_with::one_peak, InStudies{"b_value"}),
   row::figure(&TestResults::b_value_error, evaluation::b_value_error, "b_value_error", "error of the b-value",
-              display::plain(2), "standard deviation (Shi and Bolt 1982)", tests_with::emission),
+              display::plain(2), "standard deviation (Shi and Bolt 1982)", tests_with::one_peak),
   row::figure(&TestResults::b_positive, evaluation::b_positive, "b_positive", "b-value by rises of the magnitude",
-              display::plain(2), "b-positive (van der Elst 2021)", tests_with::emission),
+              display::plain(2), "b-positive (van der Elst 2021)", tests_with::one_peak),
   row::figure(&TestResults::fracture_toughness, evaluation::fracture_toughness, "fracture_toughness_Pa_sqrt_m",
               "fracture toughness", ShownIn{"MPa √m", mega, 3}, "stress intensity K_IC at the peak", tests_with::notch,
               PageColumn::where_given, InStudies{"toughness"}),

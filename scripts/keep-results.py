@@ -54,7 +54,9 @@ ALSO = {  # what the pages of an example read of its tests besides; the longest 
     "contact-models/": f"{BODY} strain_at_peak {ELASTIC} {FITS} shear_share_at_peak smooth_tension_share_at_peak n_clumps "
     "energy_imbalance_over_work",
     "direct-shear/": f"{FITS} normal_stress_at_peak_Pa dilation_angle_rad",
-    "emission-beishan/": "n_events_at_peak b_value b_value_error b_positive shear_share_at_peak",
+    "emission-beishan/": "n_events_at_peak b_value b_value_error b_positive shear_share_at_peak "
+    "crack_initiation_stress_Pa crack_initiation_stress_lateral_Pa crack_initiation_stress_emission_Pa "
+    "crack_damage_stress_Pa crack_damage_stress_emission_Pa",
     "flawed-granite/": "crack_initiation_stress_Pa first_cracks test n_of_first_ten n_of_first_ten_in_tension "
     "first_stress_Pa joining segments_1 segments_2 segments_4 stress_Pa strain_over_strain_at_peak n_faces n_tension_cracks "
     "n_shear_cracks",

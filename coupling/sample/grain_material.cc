@@ -196,7 +196,8 @@ std::vector<fem::PointCrack<dim>> GrainPoint<dim>::cracks_of_last_step() const
     {
       const std::uint32_t joint = network.link_of_segment(event.segment);
       const auto place = segment_place(network, joint, event.segment - network.links()[joint].first_segment);
-      cracks.push_back({event.in_tension, event.segment, turn * place.normal, place.size, event.released_energy});
+      cracks.push_back({event.in_tension, event.segment, turn * place.normal, place.size, event.released_energy,
+                        event.released_energy / network.volume()});
     }
   return cracks;
 }

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace feldspar
@@ -183,23 +185,39 @@ void SampleTest::Parts::note_step(const fem::NewtonReport& report)
 void SampleTest::Parts::gather_cracks()
 {
   ++bookkeeping.steps;
-  std::vector<Crack> broken = body->cracks_of_last_step();
-  const double strain = seated ? axial_strain() : 0.0;
-  for (Crack& crack : broken)
-    {
-      crack.step = bookkeeping.steps;
-      crack.axial_strain = strain;
-    }
+  auto [broken, events] = body->breaks_of_last_step();
   const auto n_of = [&](const CrackKind kind) {
     const auto is = [=](const Crack& crack) { return crack.kind == kind; };
     return ranks::sum(std::uint64_t(std::count_if(broken.begin(), broken.end(), is)));
   };
   n_tension += n_of(CrackKind::tension);
   n_shear += n_of(CrackKind::shear);
-  broken = values_of<Crack>(ranks::gathered(bytes_of(broken)));
-  std::stable_sort(broken.begin(), broken.end(),
-                   [](const Crack& one, const Crack& other) { return one.joint < other.joint; });
-  record.cracks.insert(record.cracks.end(), broken.begin(), broken.end());
+  const auto gather = [](auto& rows, const auto number) {
+    using Row = typename std::remove_reference_t<decltype(rows)>::value_type;
+    rows = values_of<Row>(ranks::gathered(bytes_of(rows)));
+    std::stable_sort(rows.begin(), rows.end(),
+                     [=](const Row& one, const Row& other) { return one.*number < other.*number; });
+  };
+  gather(broken, &Crack::joint);
+  gather(events, &EmissionEvent::number);
+  const double strain = seated ? axial_strain() : 0.0;
+  std::map<std::uint64_t, std::uint64_t> event_of_point;
+  for (EmissionEvent& event : events)
+    {
+      const std::uint64_t number = record.events.size() + 1;
+      event_of_point[std::exchange(event.number, number)] = number;
+      event.step = bookkeeping.steps;
+      event.axial_strain = strain;
+      event.time = stage_walk ? stage_row.time : std::numeric_limits<double>::quiet_NaN();
+      record.events.push_back(event);
+    }
+  for (Crack& crack : broken)
+    {
+      crack.step = bookkeeping.steps;
+      crack.axial_strain = strain;
+      crack.event = event_of_point.at(crack.joint);
+      record.cracks.push_back(crack);
+    }
 }
 
 void SampleTest::Parts::add_row()

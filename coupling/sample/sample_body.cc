@@ -261,15 +261,33 @@ public:
   }
   double mean_axial_stress() const override { return solid.mean_stress()[material_dim - 1]; }
 
-  std::vector<Crack> cracks_of_last_step() const override
+  /// The moment of an event is the volume times the fall of its stress at a held strain (stress glut; docs/theory.md §4.14).
+  PointBreaks breaks_of_last_step() const override
   {
-    std::vector<Crack> cracks;
+    PointBreaks breaks;
     for (std::size_t i = 0; i < n_points_here(); ++i)
-      for (const fem::PointCrack<material_dim>& broken : solid.material_points()[i].cracks_of_last_step())
-        cracks.push_back({broken.in_tension ? CrackKind::tension : CrackKind::shear, solid.number_of_point(i),
-                          broken.segment, 0, 0.0, in_box(i), in_space<material_dim>(broken.normal), broken.size,
-                          broken.released_energy});
-    return cracks;
+      {
+        const auto broken_here = solid.material_points()[i].cracks_of_last_step();
+        if (broken_here.empty())
+          continue;
+        EmissionEvent event{.number = solid.number_of_point(i), .centroid = in_box(i)};
+        const double volume = thickness_ratio() * solid.volumes()[i];
+        for (int k = 0; k < n_voigt<material_dim>; ++k)
+          {
+            const auto [row, column] = voigt_pair<material_dim>(k);
+            event.moment[std::size_t(row * (5 - row) / 2 + column)] = volume * solid.stress_drops()[i][k];
+          }
+        for (const fem::PointCrack<material_dim>& broken : broken_here)
+          {
+            ++(broken.in_tension ? event.n_tension : event.n_shear);
+            event.released_energy += volume * broken.released_density;
+            breaks.cracks.push_back({broken.in_tension ? CrackKind::tension : CrackKind::shear, event.number,
+                                     broken.segment, 0, 0.0, event.centroid, in_space<material_dim>(broken.normal),
+                                     broken.size, broken.released_energy});
+          }
+        breaks.events.push_back(event);
+      }
+    return breaks;
   }
 
   Energies energies() const override
@@ -326,6 +344,8 @@ public:
   void restore(const fem::StoredSolid& stored) override { solid.restore(stored); }
 
 private:
+  /// Of the body in the laboratory, which is as thick as wide, to that in the plane of a metre.
+  double thickness_ratio() const { return platens.kinematics == fem::Kinematics::plane ? its_size.width : 1.0; }
   /// The volume that the sides sweep by a lateral strain of one [m³].
   double volume_of_lateral_strain() const { return n_lateral_directions() * solid.area("top") * its_size.height; }
 

@@ -29,6 +29,13 @@ struct SampleSetUp
   std::function<bool()> gives_up;                      ///< as SolidParameters::gives_up
 };
 
+/// Broken segments, and the event of each point that has some, with the number of the point (`joint` of the cracks).
+struct PointBreaks
+{
+  std::vector<Crack> cracks;
+  std::vector<EmissionEvent> events;
+};
+
 /// A sample between platens, its sides under a confining pressure. It changes on accept() only, and every query is
 /// about the accepted state.
 class SampleBody
@@ -62,8 +69,8 @@ public:
     const std::string& end) const = 0;          ///< its force along the axis over its area at rest [Pa]
   virtual double mean_axial_stress() const = 0; ///< over the volume [Pa]
 
-  virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< at points of this rank; without step and strain
-  virtual Energies energies() const = 0;                      ///< NaN where the material does not know them
+  virtual PointBreaks breaks_of_last_step() const = 0; ///< at points of this rank; without step and strain
+  virtual Energies energies() const = 0;               ///< NaN where the material does not know them
   virtual std::uint64_t n_damaged_points() const = 0;
   /// RVE of a point; none where the point is another rank's. Throws InputError where it has no grains.
   virtual std::optional<std::variant<SampleRve<2>, SampleRve<3>>> rve(std::uint64_t point) const = 0;

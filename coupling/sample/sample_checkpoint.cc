@@ -155,6 +155,7 @@ void SampleTest::write_state(const std::filesystem::path& folder, const std::str
         std::string fields_written = parts->fields ? parts->fields->stored() : "";
         parts->transfer(root, fields_written, solid);
         root.bytes("cracks", parts->record.cracks);
+        root.bytes("events", parts->record.events);
       }
     write_cells(root, solid.cells);
   });
@@ -170,6 +171,7 @@ void SampleTest::read_state(const std::filesystem::path& checkpoint, const std::
       {
         parts->transfer(root, fields_written, solid);
         root.bytes("cracks", parts->record.cracks);
+        root.bytes("events", parts->record.events);
       }
     for (auto& cell : read_cells(root))
       solid.cells.push_back(std::move(cell));

@@ -116,6 +116,7 @@ TestOutcome SampleTest::finish(const bool interrupted) const
     {
       outcome.bookkeeping.steps = last;
       std::erase_if(record.cracks, [=](const Crack& crack) { return crack.step > last; });
+      std::erase_if(record.events, [=](const EmissionEvent& event) { return event.step > last; });
       std::erase_if(outcome.bookkeeping.solver_work->steps, [=](const SolverStep& one) { return one.step > last; });
     }
   outcome.bookkeeping.largest_residual = 0.0;

@@ -33,7 +33,7 @@ struct SampleStanding
 /// seating.
 ///
 /// All ranks of mpirun make it together: every function is collective, throws on all ranks what it throws on any, and
-/// tells the same on all, but for the cracks, which only the first rank has.
+/// tells the same on all, but for the cracks and events, which only the first rank has.
 class SampleTest
 {
 public:

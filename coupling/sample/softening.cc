@@ -234,6 +234,22 @@ std::vector<double> SofteningPoint<dim>::fields() const
   return values;
 }
 
+/// Cracks release as many times the energy as energies() has it.
+template <int dim>
+std::vector<fem::PointCrack<dim>> SofteningPoint<dim>::cracks_of_last_step() const
+{
+  auto cracks = inner->cracks_of_last_step();
+  if (cracks.empty() || !accepted.localised)
+    return cracks;
+  double since = inner->energies().value_or(fem::PointEnergies{}).released - accepted.energies.released;
+  for (auto crack = cracks.rbegin(); crack != cracks.rend() && since > 0.5 * crack->released_density; ++crack)
+    {
+      since -= crack->released_density;
+      crack->released_density /= scale;
+    }
+  return cracks;
+}
+
 template <int dim>
 std::optional<fem::PointEnergies> SofteningPoint<dim>::energies() const
 {

@@ -44,6 +44,7 @@ public:
   /// The last is 1 where it has localised and since strained, beyond what is elastic, by more than it was elastically then:
   /// a break in a small RVE may let the stress fall for a moment.
   std::vector<double> fields() const override;
+  std::vector<fem::PointCrack<dim>> cracks_of_last_step() const override;
   /// The energies of the piece: losses of the RVE once localised count 1/κ times. During events the piece is held and
   /// no work is done on it; the gain of its energies then is subtracted from the released energy; docs/theory.md §10.
   std::optional<fem::PointEnergies> energies() const override;

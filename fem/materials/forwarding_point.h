@@ -59,8 +59,8 @@ public:
   {
     std::vector<PointCrack<dim>> cracks;
     for (const auto& crack : inner->cracks_of_last_step())
-      cracks.push_back(
-        {crack.in_tension, crack.segment, Axes::direction_without(crack.normal), crack.size, crack.released_energy});
+      cracks.push_back({crack.in_tension, crack.segment, Axes::direction_without(crack.normal), crack.size,
+                        crack.released_energy, crack.released_density});
     return cracks;
   }
   bool is_damaged() const override { return inner->is_damaged(); }

@@ -58,8 +58,9 @@ struct PointCrack
   bool in_tension;       ///< else in shear
   std::uint32_t segment; ///< its number within the point
   Eigen::Matrix<double, dim, 1> normal;
-  double size;            ///< length in the plane, root of the area in space [m]
-  double released_energy; ///< [J]
+  double size;             ///< length in the plane, root of the area in space [m]
+  double released_energy;  ///< [J]
+  double released_density; ///< by it, per volume of the piece of the sample at the point [J/m³]
 };
 
 /// A point has no response to the strain asked: the step is cut, not the run ended.

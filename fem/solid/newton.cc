@@ -35,6 +35,7 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
   -> Outcome
 {
   tried = start;
+  tried.stress_drops.assign(tried.responses.size(), StressVector<material_dim>::Zero());
   NewtonReport report;
   const auto failed = [&](const std::string& why) {
     report.failure = why;
@@ -86,8 +87,11 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
             return failed(fmt::format("more than {} events", parameters.most_events));
           if (report.n_cascades >= parameters.most_cascades)
             return failed(fmt::format("still unstable after {} cascades", report.n_cascades));
+          const auto responses_before = tried.responses;
           if (!update_points())
             return failed("a material point has no response to its strain");
+          for (std::size_t i = 0; i < responses_before.size(); ++i)
+            tried.stress_drops[i] += responses_before[i].stress - tried.responses[i].stress;
           n_iterations_left = parameters.most_iterations;
           parameters.watch(report);
           continue;

@@ -95,6 +95,8 @@ public:
   const std::vector<double>& volumes() const { return points.volumes; } ///< [m³]
   const std::vector<StrainVector<material_dim>>& strains() const { return accepted->strains; }
   const std::vector<MaterialResponse<material_dim>>& responses() const { return accepted->responses; }
+  /// Fall of the stress by the events of the last step, each at a held strain [Pa].
+  const std::vector<StressVector<material_dim>>& stress_drops() const { return accepted->stress_drops; }
 
 private:
   void set_up();

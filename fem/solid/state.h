@@ -19,6 +19,8 @@ struct SolidState
   NodalVector external_force; ///< of the pressures [N]
   std::vector<StrainVector<material_dim>> strains;
   std::vector<MaterialResponse<material_dim>> responses;
+  std::vector<StressVector<material_dim>>
+    stress_drops{};                        ///< by the events of the last step, each at a held strain [Pa]
   std::map<std::string, double> pressures; ///< on boundaries by their names [Pa]
   BoundaryWork work{};                     ///< on the way here from rest, the same on every rank
 };

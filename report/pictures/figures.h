@@ -25,9 +25,11 @@ FigureOfSameTests stress_picture;      ///< stress over axial, lateral and volum
 FigureOfSameTests crack_count_picture; ///< broken segments
 FigureOfSameTests energy_picture;      ///< partition of the energy in one of the series
 FigureOfSameTests crack_rate_picture;  ///< cracks and released energy per strain
+FigureOfSameTests emission_picture;    ///< stress, hits and their energy, each over its highest
 FigureOfSameTests magnitude_picture;   ///< number of events of acoustic emission over their magnitude
-inline constexpr std::array curve_figures{stress_picture, crack_count_picture, energy_picture, crack_rate_picture,
-                                          magnitude_picture};
+FigureOfSameTests source_picture;      ///< mechanisms of the events in a Hudson plot
+inline constexpr std::array curve_figures{stress_picture,     crack_count_picture, energy_picture, emission_picture,
+                                          crack_rate_picture, magnitude_picture,   source_picture};
 
 // One test, under a title.
 using FigureOfTest = Pictures(const FinishedTest&, const std::string&);

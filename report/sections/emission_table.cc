@@ -21,8 +21,8 @@ Table emission_table(const Series& series)
   static constexpr std::array names{"up to 50 %", "50 to 80 %", "80 % to the peak"};
   Table table{"emission",
               "Acoustic emission by the share of the peak deviator, all tests of a kind together",
-              {"test", "deviator", "events", "breaks an event", "largest magnitude", "b", "b-positive", "tensile [%]",
-               "shear [%]", "implosive [%]"},
+              {"test", "deviator", "events", "breaks an event", "largest magnitude", "complete from magnitude", "b",
+               "b-positive", "tensile [%]", "shear [%]", "implosive [%]"},
               {}};
   for (const auto& group : groups_of(series))
     for (std::size_t w = 0; w < names.size(); ++w)
@@ -51,7 +51,7 @@ Table emission_table(const Series& series)
           continue;
         const auto frequency = magnitude_frequency(magnitudes);
         table.rows.push_back({group.title(), names[w], number(n_events, 0), number(n_breaks / n_events, 2),
-                              number(largest, 2),
+                              number(largest, 2), frequency ? number(frequency->completeness, 1) : none,
                               frequency ? fmt::format("{:.2f} ± {:.2f}", frequency->b, frequency->error) : none,
                               frequency ? number(frequency->b_positive, 2) : none});
         for (const double n : n_of_kind)

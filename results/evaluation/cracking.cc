@@ -22,6 +22,30 @@ std::optional<std::size_t> most_contracted_row(const RisingBranch& branch)
   return std::size_t(row - branch.rows.begin());
 }
 
+/// Stress at which a quantity lies furthest below the straight line from the start to a row, for there it begins to grow faster.
+template <typename Value>
+Figure stress_before_growth(const RisingBranch& branch, const std::size_t last, const Value& value,
+                            const char* const never)
+{
+  const CurveSample& first = branch.rows.front();
+  const double rise = branch.stress(branch.rows[last]) - branch.stress(first);
+  if (!(rise > 0.0))
+    return unknown("no load before the crack damage stress");
+  const double slope = (value(branch.rows[last]) - value(first)) / rise;
+  double furthest = 0.0;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k <= last; ++k)
+    {
+      const double on_line = value(first) + slope * (branch.stress(branch.rows[k]) - branch.stress(first));
+      if (const double distance = on_line - value(branch.rows[k]); distance > furthest)
+        {
+          furthest = distance;
+          at = k;
+        }
+    }
+  return at == 0 ? unknown(never) : known(branch.stress(branch.rows[at]));
+}
+
 /// Number of cracks on grain boundaries, in a grain-based model.
 double n_smooth_cracks(const RisingBranch& branch, const CrackKind kind)
 {
@@ -56,33 +80,32 @@ Figure crack_initiation_stress(const RisingBranch& branch)
   return row ? known(branch.stress(branch.rows[*row])) : unknown(no_crack);
 }
 
-/// Lateral strain response: the stress at which the lateral expansion lies furthest below the straight line from the
-/// start to crack damage, for there it begins to grow faster. Needs no crack to be counted.
+/// Lateral strain response: the stress at which the lateral expansion begins to grow faster. Needs no crack to be counted.
 Figure crack_initiation_stress_lateral(const RisingBranch& branch)
 {
   const auto damage = most_contracted_row(branch);
-  if (!damage)
-    return unknown("needs the crack damage stress");
-  const auto expansion = [](const CurveSample& row) { return row.gauge_lateral_strain; };
-  const CurveSample& first = branch.rows.front();
-  const CurveSample& last = branch.rows[*damage];
-  if (!(branch.stress(last) > branch.stress(first)))
-    return unknown("no load before the crack damage stress");
-  const double slope = (expansion(last) - expansion(first)) / (branch.stress(last) - branch.stress(first));
-  double furthest = 0.0;
-  std::size_t at = 0;
-  for (std::size_t k = 0; k <= *damage; ++k)
-    {
-      const double on_line = expansion(first) + slope * (branch.stress(branch.rows[k]) - branch.stress(first));
-      if (const double distance = on_line - expansion(branch.rows[k]); distance > furthest)
-        {
-          furthest = distance;
-          at = k;
-        }
-    }
-  if (at == 0)
-    return unknown("lateral strain never lags behind a straight line");
-  return known(branch.stress(branch.rows[at]));
+  return damage ? stress_before_growth(
+                    branch, *damage, [](const CurveSample& row) { return row.gauge_lateral_strain; },
+                    "lateral strain never lags behind a straight line")
+                : unknown("needs the crack damage stress");
+}
+
+/// The same by the hits of acoustic emission (the cumulative hits of Zhao et al. 2015).
+Figure crack_initiation_stress_emission(const RisingBranch& branch)
+{
+  const auto damage = most_contracted_row(branch);
+  return damage ? stress_before_growth(
+                    branch, *damage, [](const CurveSample& row) { return double(n_cracks(row)); },
+                    "cracks never lag behind a straight line")
+                : unknown("needs the crack damage stress");
+}
+
+/// The same up to the peak by the energy that the hits released.
+Figure crack_damage_stress_emission(const RisingBranch& branch)
+{
+  return stress_before_growth(
+    branch, branch.rows.size() - 1, [](const CurveSample& row) { return row.energies.released; },
+    "the released energy never lags behind a straight line");
 }
 
 /// Stress at which the volumetric strain, contracting at first, turns round.

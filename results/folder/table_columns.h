@@ -51,7 +51,7 @@ inline constexpr Column<EmissionRow> emission_columns[] = {
   column<EmissionRow, &EmissionRow::source, &SourceMechanism::isotropic>("isotropic_share"),
   column<EmissionRow, &EmissionRow::source, &SourceMechanism::double_couple>("double_couple_share"),
   column<EmissionRow, &EmissionRow::source, &SourceMechanism::clvd>("clvd_share"),
-  column<EmissionRow, &EmissionRow::event, &EmissionEvent::time>("time_s"),
+  column<EmissionRow, &EmissionRow::event, &EmissionEvent::time>("time_s", "", perhaps_nan),
   column<EmissionRow, &EmissionRow::event, &EmissionEvent::extent>("extent_m"),
   column<EmissionRow, &EmissionRow::event, &EmissionEvent::n_tension>("n_tension"),
   column<EmissionRow, &EmissionRow::event, &EmissionEvent::n_shear>("n_shear"),

@@ -216,18 +216,34 @@ def shear_lines(cells):
             number(mean(tests, "dilation_angle_rad", DEGREE), 2)]
 
 
-def emission(cells):
+def emission_tests(body, pressure):
+    return of("emission-beishan/" + {"discs": "granite", "spheres": "cylinder"}[body],
+              PRESSED if pressure == "0" else f"triaxial_compression_{pressure}_MPa")
+
+
+def emission(cells, body="granite"):
     pressure = "Uniaxial compression" if cells[0] == "0" else f"Triaxial compression, {cells[0]} MPa"
-    with open(os.path.join(ROOT, "examples/emission-beishan/results/granite-emission.csv"), encoding="utf-8") as file:
+    with open(os.path.join(ROOT, f"examples/emission-beishan/results/{body}-emission.csv"), encoding="utf-8") as file:
         row = next(row for row in csv.DictReader(file) if (row["test"], row["deviator"]) == (pressure, cells[1]))
     columns = ("events", "breaks an event", "b", "b-positive", "tensile [%]", "shear [%]")
     return [None, None, *(row[column] for column in columns)]
 
 
+def emission_of_spheres(cells):
+    return emission(cells, "cylinder")
+
+
 def emission_to_peak(cells):
-    tests = of("emission-beishan/granite", PRESSED if cells[0] == "0" else f"triaxial_compression_{cells[0]}_MPa")
-    return [None, shown(values(tests, "n_events_at_peak", 1), 0), shown(values(tests, "b_value", 1), 2),
+    tests = emission_tests(*cells[:2])
+    return [None, None, shown(values(tests, "n_events_at_peak", 1), 0), shown(values(tests, "b_value", 1), 2),
             shown(values(tests, "b_positive", 1), 2), shown(values(tests, "shear_share_at_peak", 0.01), 1)]
+
+
+def emission_stresses(cells):
+    tests = emission_tests(*cells[:2])
+    names = (INITIATION, "crack_initiation_stress_lateral_Pa", "crack_initiation_stress_emission_Pa", DAMAGE,
+             "crack_damage_stress_emission_Pa", "peak_stress_Pa")
+    return [None, None, *(shown(values(tests, name), 0) for name in names)]
 
 
 def emission_windows(cells):
@@ -441,6 +457,8 @@ TABLES = {
     "ways to break": ways_to_break,
     "clump size": clump_size,
     "emission": emission,
+    "emission of spheres": emission_of_spheres,
+    "emission stresses": emission_stresses,
     "emission up to the peak": emission_to_peak,
     "emission windows": emission_windows,
     "direct shear": direct_shear,

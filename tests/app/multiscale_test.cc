@@ -122,7 +122,7 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
   EXPECT_NE(trust.find("unbalanced over internal force of a sample"), std::string::npos) << trust;
 
   ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output two --quiet --threads 2").exit_code, 0);
-  for (const char* const file : {"cracks.csv", "steps.csv", "curves/direct_tension_seed_1.csv"})
+  for (const char* const file : {"cracks.csv", "emission.csv", "steps.csv", "curves/direct_tension_seed_1.csv"})
     EXPECT_EQ(contents(folder.path() / "one" / file), contents(folder.path() / "two" / file)) << file;
 
   // Beside a specimen of grains both are series of one report.
@@ -240,8 +240,8 @@ TEST(Multiscale, KilledAndResumedGoesOnToTheSameBits)
   run_feldspar(folder.path(), "multiscale --resume broken --quiet", "timeout --foreground --signal=KILL 0.6");
   const auto last = run_without_pictures(folder.path(), "multiscale --resume broken --quiet");
   ASSERT_EQ(last.exit_code, 0) << last.error;
-  for (const char* const file :
-       {"cracks.csv", "steps.csv", "curves/direct_tension_seed_1.csv", "fields/direct_tension_seed_1.xdmf"})
+  for (const char* const file : {"cracks.csv", "emission.csv", "steps.csv", "curves/direct_tension_seed_1.csv",
+                                 "fields/direct_tension_seed_1.xdmf"})
     EXPECT_EQ(contents(folder.path() / "whole" / file), contents(folder.path() / "broken" / file)) << file;
   EXPECT_NE(run_feldspar(folder.path(), "multiscale --resume broken").output.find("this run is complete"),
             std::string::npos);
@@ -278,7 +278,7 @@ TEST(Multiscale, EndsCleanlyOnInterruptAndSaysHowToResume)
   EXPECT_EQ(summary.at("tests").at(0).at("interrupted"), true);
   ASSERT_EQ(run_without_pictures(folder.path(), "multiscale --resume out --quiet").exit_code, 0);
   ASSERT_EQ(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet").exit_code, 0);
-  for (const char* const file : {"cracks.csv", "steps.csv", "curves/direct_tension_seed_1.csv"})
+  for (const char* const file : {"cracks.csv", "emission.csv", "steps.csv", "curves/direct_tension_seed_1.csv"})
     EXPECT_EQ(contents(folder.path() / "whole" / file), contents(folder.path() / "out" / file)) << file;
 }
 

@@ -75,6 +75,20 @@ void expect_same_run(const fs::path& one, const fs::path& other, const std::size
     for (std::size_t c = 0; c < 5; ++c) // test, kind, joint, segment, step
       ASSERT_EQ(cracks[k][c], other_cracks[k][c]) << "line " << k + 1;
 
+  const auto events = table(one / "emission.csv");
+  const auto other_events = table(other / "emission.csv");
+  ASSERT_EQ(events.size(), other_events.size());
+  ASSERT_GT(events.size(), 1u);
+  const auto moment = std::size_t(std::find(events[0].begin(), events[0].end(), "moment_Nm") - events[0].begin());
+  ASSERT_LT(moment, events[0].size());
+  for (std::size_t k = 1; k < events.size(); ++k)
+    {
+      for (std::size_t c = 0; c < 2; ++c) // number, step
+        ASSERT_EQ(events[k][c], other_events[k][c]) << "line " << k + 1;
+      const double of_one = std::stod(events[k][moment]);
+      EXPECT_NEAR(of_one, std::stod(other_events[k][moment]), 1e-5 * of_one) << "line " << k + 1;
+    }
+
   // Each step took as many iterations, cascades and cuts. Sums over ranks differ by round-off, and with them residuals near it.
   auto steps = table(one / "steps.csv");
   auto other_steps = table(other / "steps.csv");

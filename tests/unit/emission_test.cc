@@ -393,13 +393,18 @@ TEST(Emission, MechanismsAreThoseOfTheirTensors)
   EXPECT_NEAR(source.isotropic, 5.0 / 9.0, 1e-15);
   EXPECT_NEAR(source.clvd, 4.0 / 9.0, 1e-15);
   EXPECT_NEAR(source.double_couple, 0.0, 1e-15);
-  EXPECT_EQ(source.kind, "tensile"); // 5/(5 + 8/3) = 65 %
+  EXPECT_EQ(source.kind, "tensile");          // 5/(5 + 8/3) = 65 %
+  HudsonPlace place = hudson_place(event, 3); // −⅔ (3 + 1 − 2)/3, ⅓·5/3
+  EXPECT_NEAR(place.u, -4.0 / 9.0, 1e-15);
+  EXPECT_NEAR(place.v, 5.0 / 9.0, 1e-15);
 
   event.moment = {0.0, 0.0, 2.0, 0.0, 0.0, 0.0}; // a slip in xz
   source = mechanism(event, 3);
   EXPECT_DOUBLE_EQ(source.scalar_moment, 2.0);
   EXPECT_NEAR(source.double_couple, 1.0, 1e-15);
   EXPECT_EQ(source.kind, "shear");
+  place = hudson_place(event, 3);
+  EXPECT_NEAR(std::hypot(place.u, place.v), 0.0, 1e-15);
 
   // In the plane the third eigenvalue, 2, is the mean of the others.
   event.moment = {-1.0, 0.0, 0.0, -3.0, 0.0, 0.0};
@@ -408,6 +413,9 @@ TEST(Emission, MechanismsAreThoseOfTheirTensors)
   EXPECT_NEAR(source.clvd, 0.0, 1e-15);
   EXPECT_NEAR(source.isotropic, -2.0 / 3.0, 1e-15);
   EXPECT_EQ(source.kind, "implosive");
+  place = hudson_place(event, 2);
+  EXPECT_NEAR(place.u, 0.0, 1e-15);
+  EXPECT_NEAR(place.v, -2.0 / 3.0, 1e-15);
 
   EXPECT_EQ(mechanism({}, 2).kind, "");
   EXPECT_TRUE(std::isnan(mechanism({}, 2).magnitude));

@@ -175,6 +175,23 @@ TEST(LabResults, OfACurveWithoutCracksComeFromItsStrains)
   EXPECT_EQ(results.crack_initiation_stress.reason, "no crack before the peak");
 }
 
+TEST(LabResults, OfAcousticEmissionAreTheKinksOfHitsAndOfTheirEnergy)
+{
+  // Hits in proportion to the lateral strain, which has its kinks at 60 and 120 MPa, and energy from 100 MPa on.
+  TestRecord record = kinked_compression();
+  for (CurveSample& row : record.curve)
+    {
+      row.n_tension_cracks = std::uint64_t(1e9 * row.gauge_lateral_strain);
+      row.energies.released = std::max(0.0, -row.axial_stress - 100e6);
+    }
+  const auto results = evaluate(record);
+  ASSERT_TRUE(results.crack_initiation_stress_emission.value) << results.crack_initiation_stress_emission.reason;
+  EXPECT_NEAR(*results.crack_initiation_stress_emission.value, 60e6, 1.0);
+  EXPECT_NEAR(*results.crack_damage_stress_emission.value, 100e6, 1.0);
+  EXPECT_NE(evaluate(kinked_compression()).crack_damage_stress_emission.reason.find("never lags behind"),
+            std::string::npos);
+}
+
 TEST(LabResults, SayWhenLateralStrainTellsNoCrackInitiation)
 {
   TestRecord record = kinked_compression();

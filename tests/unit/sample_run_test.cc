@@ -3,12 +3,16 @@
 
 #include "coupling/sample/sample_run.h"
 #include "dem/lab/protocols/protocols.h"
+#include "tests/unit/small_rve.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <map>
+#include <numeric>
+#include <vector>
 
 namespace feldspar
 {
@@ -113,5 +117,62 @@ TEST(SampleTest, MohrCoulombHoldsTheStressOfItsClosedFormInEachGeometry)
               EXPECT_LE(-row.axial_stress, exact * (1.0 + 2.0 * sample.newton_tolerance));
             }
         }
+}
+
+// An element between rough platens has the strain of the platens at its four points. Another volume led over the same strains
+// tells by how much each step's breaks lower the stress at a held strain: that times the quarter of the element, as thick as it
+// is wide, is the moment.
+TEST(SampleTest, EmissionOfAVolumeHasTheMomentByWhichItsStressFalls)
+{
+  EquilibriumParameters tight;
+  tight.event_tolerance = tight.final_tolerance = 1e-10;
+  const auto network = std::make_shared<const Network<2>>(periodic_specimen());
+  SampleParameters sample;
+  sample.width = sample.height = 0.05;
+  sample.elements_across = sample.elements_along = 1;
+  sample.rough_platens = true;
+  sample.random_orientation = false;
+  sample.most_broken_share = 1.0;
+  sample.tension_step = 5e-6;
+  TestParameters wanted;
+  wanted.stop_strain = 3e-4;
+  SampleTest test({direct_tension.kind}, sample, wanted, tight, std::vector{Realisation<2>(network)}, {}, 1);
+  go_to_the_end(test);
+  const TestRecord record = test.finish(false).record;
+
+  RepresentativeVolume<2> alone(network, tight);
+  auto event = record.events.begin();
+  std::uint64_t n_events = 0;
+  for (std::size_t k = 1; k < record.curve.size(); ++k)
+    {
+      const Voigt<2> strain = axial<2>(record.curve[k].axial_strain);
+      const Voigt<2> before = alone.trial(strain, Bonds::frozen).state.stress;
+      auto after = alone.trial(strain);
+      const Voigt<2> fall = before - after.state.stress;
+      const bool breaks = !after.breaks.empty();
+      alone.accept(std::move(after));
+      for (int point = 0; breaks && point < 4; ++point, ++event)
+        {
+          ASSERT_NE(event, record.events.end());
+          EXPECT_EQ(event->number, ++n_events);
+          EXPECT_EQ(event->step, record.curve[k].step);
+          const double volume = 0.25 * 0.05 * 0.05 * 0.05;
+          const Voigt<2> moment(event->moment[0], event->moment[3], event->moment[1]);
+          EXPECT_LT(relative(moment, volume * fall), 1e-5) << k; // Newton's tolerance of the sample
+        }
+    }
+  EXPECT_EQ(event, record.events.end());
+  EXPECT_GT(n_events, 20u);
+
+  std::map<std::uint64_t, std::uint64_t> n_breaks;
+  for (const Crack& crack : record.cracks)
+    ++n_breaks[crack.event];
+  for (const EmissionEvent& one : record.events)
+    EXPECT_EQ(one.n_breaks(), n_breaks[one.number]);
+  EXPECT_EQ(n_breaks.size(), record.events.size());
+  const double released = std::accumulate(record.events.begin(), record.events.end(), 0.0,
+                                          [](const double sum, const auto& one) { return sum + one.released_energy; });
+  const double expected = 0.05 * record.curve.back().energies.released; // the curve's is that of a metre
+  EXPECT_NEAR(released, expected, 1e-12 * expected);
 }
 } // namespace feldspar

@@ -16,10 +16,26 @@ using namespace plot;
 
 constexpr std::size_t n_bins = 40;
 
-/// Mean of a quantity over the tests of a group, over axial strain.
-void add_mean_of(Chart& chart, const SeriesGroup& of, const Quantity& quantity, ChartSeries mean)
+enum class Scale
 {
-  const Band over_seeds = band(of.group, quantity, false);
+  as_it_is,
+  over_highest ///< over the highest mean
+};
+
+/// Mean of a quantity over the tests of a group, over axial strain.
+void add_mean_of(Chart& chart, const SeriesGroup& of, const Quantity& quantity, ChartSeries mean,
+                 const Scale scale = Scale::as_it_is)
+{
+  Band over_seeds = band(of.group, quantity, false);
+  if (scale == Scale::over_highest && !over_seeds.mean.empty())
+    {
+      const double highest = *std::max_element(over_seeds.mean.begin(), over_seeds.mean.end());
+      if (!(highest > 0.0))
+        return;
+      for (auto* const numbers : {&over_seeds.mean, &over_seeds.deviation})
+        for (double& number : *numbers)
+          number /= highest;
+    }
   std::vector<std::array<double, 2>> deviations;
   for (std::size_t k = 0; k < over_seeds.abscissa.size(); ++k)
     {
@@ -101,6 +117,30 @@ Pictures energy_picture(const SameTests& same)
                        "Where the work of the boundaries went" +
                          (same.size() > 1 ? ", " + of->series->label : std::string()) + means_of_several({*of}),
                        fmt::format("Energies against {} in {}.", abscissa_name(same), same.front().group.title()));
+}
+
+Pictures emission_picture(const SameTests& same)
+{
+  const auto of = std::find_if(same.begin(), same.end(), [](const auto& one) { return one.counts_cracks(); });
+  if (of == same.end())
+    return {};
+  const auto hits = [](const CurveSample& row) { return double(row.n_tension_cracks + row.n_shear_cracks); };
+  if (is_nowhere(*of, hits))
+    return {};
+  Chart chart{.x = {.label = abscissa_label(same)}, .y = {.label = "over the highest", .from = 0.0}, .key_columns = 3};
+  const TestKind& kind = of->group.kind;
+  add_mean_of(
+    chart, *of, [&](const CurveSample& row) { return kind.stress(row); }, {.label = "stress", .colour = black},
+    Scale::over_highest);
+  add_mean_of(chart, *of, hits, {.label = "hits so far", .colour = teal, .dashes = 2}, Scale::over_highest);
+  add_mean_of(
+    chart, *of, [](const CurveSample& row) { return row.energies.released; },
+    {.label = "energy they released so far", .colour = wine}, Scale::over_highest);
+  return curve_picture(std::move(chart), same, "_emission",
+                       "Course of the acoustic emission: a hit is the break of a segment" +
+                         (same.size() > 1 ? ", " + of->series->label : std::string()) + means_of_several({*of}),
+                       fmt::format("Stress, number of hits and their energy against {} in {}.", abscissa_name(same),
+                                   same.front().group.title()));
 }
 
 Pictures crack_rate_picture(const SameTests& same)
