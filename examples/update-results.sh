@@ -22,7 +22,7 @@ studies=("$@")
   calibrate-{beishan,beishan-cylinder,lac-du-bonnet,sandstone}/calibrate
   flawed-granite/{flaw,closed-flaw,flaw-length}
   toughness/{toughness,large-plate,softening,softening-strength,in-plane,in-space}
-  emission-beishan/{granite,cylinder,windows}
+  emission-beishan/{granite,spheres,windows}
   direct-shear/{smooth-plane,intact,stiff-rock}
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,kinematics,kinematics-free-sides,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
   multiscale-beishan/{beishan,demo}
@@ -47,6 +47,6 @@ for study in "${studies[@]}"; do
   else
     ../scripts/keep-results.py "$run/summary.json" --to "$(dirname "$study")/results/$(basename "$study").json"
   fi
-  [[ $study != emission-beishan/[cg]* ]] || cp "$run/tables/emission.csv" "emission-beishan/results/${study#*/}-emission.csv"
+  [[ $study != emission-beishan/[gs]* ]] || cp "$run/tables/emission.csv" "emission-beishan/results/${study#*/}-emission.csv"
   rm --recursive "$run"
 done

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -19,7 +20,9 @@ namespace feldspar
 namespace
 {
 constexpr double poisson_ratio = 0.25; // of the rock, for the speed of shear waves alone
-constexpr std::size_t most_segments_a_step = 64;
+// Between two measurements of an event; under damping its moment rises to its end.
+constexpr std::size_t steps_between = 4;
+constexpr std::size_t segments_a_step = 16;
 
 /// A force on grain 2 by its parts along the axes of a face.
 template <int dim>
@@ -169,10 +172,31 @@ void EmissionWatch<dim>::enclose(Source& source) const
 }
 
 template <int dim>
+void EmissionWatch<dim>::measure(const Dynamics<dim>& dynamics, Source& source)
+{
+  for (BrokenSegment& broken : source.broken)
+    if (const auto moment = moment_of(dynamics, broken))
+      Eigen::Map<Tensor<dim>>(broken.moment.data()) = *moment;
+  keep_larger(events[source.event].moment, sum_of(source));
+}
+
+template <int dim>
+auto EmissionWatch<dim>::sum_of(const Source& source) -> Moment
+{
+  Moment sum{};
+  for (const BrokenSegment& broken : source.broken)
+    std::transform(sum.begin(), sum.end(), broken.moment.begin(), sum.begin(), std::plus<>());
+  return sum;
+}
+
+template <int dim>
 void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks,
                                 std::vector<Crack>& cracks)
 {
   const double now = dynamics.time();
+  for (Source& source : sources)
+    if (source.end < now)
+      measure(dynamics, source);
   std::erase_if(sources, [&](const Source& source) { return source.end < now; });
   for (std::size_t k = 0; k < breaks.size(); ++k)
     {
@@ -183,33 +207,24 @@ void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector
       std::copy_n(crack.centroid.begin(), dim, broken.place.begin());
       Source& source = source_at(Eigen::Map<const Vector<dim>>(broken.place.data()), now);
       crack.event = source.event;
+      if (const auto moment = moment_of(dynamics, broken)) // its joint may go before the event is measured
+        Eigen::Map<Tensor<dim>>(broken.moment.data()) = *moment;
       source.broken.push_back(broken);
       enclose(source);
       source.end = now + duration_over_radius * source.radius;
     }
+  // A large event changes slowly, and costs no more than a small one if it is measured as much more seldom.
   for (Source& source : sources)
-    {
-      // A large event changes slowly, and costs no more than a small one if it is measured as much more seldom.
-      const bool has_grown = std::any_of(cracks.end() - std::ptrdiff_t(breaks.size()), cracks.end(),
-                                         [&](const Crack& crack) { return crack.event == source.event; });
-      if (!has_grown && dynamics.n_steps() % (1 + (source.broken.size() - 1) / most_segments_a_step) != 0)
-        continue;
-      Tensor<dim> sum = Tensor<dim>::Zero();
-      for (BrokenSegment& broken : source.broken)
-        {
-          Eigen::Map<Tensor<dim>> moment(broken.moment.data());
-          moment = moment_of(dynamics, broken).value_or(moment);
-          sum += moment;
-        }
-      Moment now;
-      Eigen::Map<Tensor<dim>>(now.data()) = sum;
-      keep_larger(events[source.event].moment, now);
-    }
+    if (dynamics.n_steps() % (steps_between + source.broken.size() / segments_a_step) == 0)
+      measure(dynamics, source);
 }
 
 template <int dim>
 std::vector<EmissionEvent> EmissionWatch<dim>::catalogue(std::vector<Crack>& cracks, const double start) const
 {
+  std::vector<Event> until_now = events;
+  for (const Source& running : sources)
+    keep_larger(until_now[running.event].moment, sum_of(running));
   std::vector<EmissionEvent> list;
   std::map<std::uint64_t, std::size_t> place_of_event;
   for (Crack& crack : cracks)
@@ -224,7 +239,7 @@ std::vector<EmissionEvent> EmissionWatch<dim>::catalogue(std::vector<Crack>& cra
                             .step = crack.step,
                             .time = events[event].time - start,
                             .axial_strain = crack.axial_strain};
-          const Eigen::Map<const Tensor<dim>> moment(events[event].moment.data());
+          const Eigen::Map<const Tensor<dim>> moment(until_now[event].moment.data());
           for (int a = 0, k = 0; a < 3; ++a)
             for (int b = a; b < 3; ++b, ++k)
               one.moment[k] = b < dim ? thickness_ratio * moment(a, b) : 0.0;

@@ -63,6 +63,8 @@ private:
   /// Sets centre and radius by the breaks.
   void enclose(Source& source) const;
   Source& source_at(const Vector<dim>& place, double time);
+  void measure(const Dynamics<dim>& dynamics, Source& source);
+  static Moment sum_of(const Source& source);
 
   double least_radius;          ///< [m]
   double duration_over_radius;  ///< [s/m]

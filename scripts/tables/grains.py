@@ -217,7 +217,7 @@ def shear_lines(cells):
 
 
 def emission_tests(body, pressure):
-    return of("emission-beishan/" + {"discs": "granite", "spheres": "cylinder"}[body],
+    return of("emission-beishan/" + {"discs": "granite", "spheres": "spheres"}[body],
               PRESSED if pressure == "0" else f"triaxial_compression_{pressure}_MPa")
 
 
@@ -230,7 +230,7 @@ def emission(cells, body="granite"):
 
 
 def emission_of_spheres(cells):
-    return emission(cells, "cylinder")
+    return emission(cells, "spheres")
 
 
 def emission_to_peak(cells):

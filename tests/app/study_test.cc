@@ -886,6 +886,7 @@ int exit_code_of_git(const std::string& arguments)
 // Beginnings of the names of results that are without a piece that could be run here, each with its reason.
 const std::map<std::string, std::string> without_piece{
   {"granite.", "the same tests with other events, windows.json, have a piece"},
+  {"spheres", "a test of its cylinder takes minutes"},
   {"radius-as-diameter", "a test of its 7 700 grains takes more than a minute"},
   {"beishan-cylinder", "its packing takes more than a minute"},
   {"published-", "8 192 cells; minutes to core-hours"},

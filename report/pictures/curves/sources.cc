@@ -68,10 +68,16 @@ Chart diamond(std::vector<Source> sources)
           marks.points.push_back({source.place.u, source.place.v});
       chart.series.push_back(std::move(marks));
     }
+  chart.series.push_back({.kind = ChartSeries::Kind::marks,
+                          .colour = black,
+                          .width = 1.4,
+                          .mark = 2,
+                          .size = 0.8,
+                          .points = {{0.0, 1.0}, {-4.0 / 9, 5.0 / 9}, {-2.0 / 3, 1.0 / 3}, {0.0, 0.0}, {0.0, -1.0}}});
   chart.series.push_back({.kind = ChartSeries::Kind::texts,
                           .colour = black,
                           .size = 11.0,
-                          .points = {{0.0, 1.1}, {-0.35, 0.62}, {-0.6, 0.4}, {0.0, 0.06}, {0.0, -1.04}},
+                          .points = {{0.0, 1.09}, {-0.72, 0.62}, {-0.9, 0.36}, {0.0, -0.1}, {0.25, -1.04}},
                           .texts = {"explosion", "opening crack", "dipole", "double couple", "implosion"}});
   return chart;
 }
