@@ -344,7 +344,7 @@ public:
   void restore(const fem::StoredSolid& stored) override { solid.restore(stored); }
 
 private:
-  /// Of the body in the laboratory, which is as thick as wide, to that in the plane of a metre.
+  /// Ratio of the thickness of the body in the laboratory, its width, to the metre of the plane.
   double thickness_ratio() const { return platens.kinematics == fem::Kinematics::plane ? its_size.width : 1.0; }
   /// The volume that the sides sweep by a lateral strain of one [m³].
   double volume_of_lateral_strain() const { return n_lateral_directions() * solid.area("top") * its_size.height; }
