@@ -86,8 +86,8 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
   std::filesystem::create_directories(folder / result_file::fields);
   for (const auto& test : tests)
     if (test.record.body == TestBody::grains)
-      write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / result_file::fields,
-                   group_name(test.record));
+      write_fields(test.name, test.record.kind, test.record.cracks, test.record.events, test.appearance,
+                   folder / result_file::fields, group_name(test.record));
     else if (std::filesystem::exists(folder / result_file::fields / (test.name + ".xdmf"))) // written step by step
       try
         {
