@@ -61,6 +61,14 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
           section.blocks.push_back(block);
         }
     }
+  if (Table recorded = catalogue_table(findings.catalogues); !recorded.rows.empty())
+    {
+      PageBlock block;
+      block.subheading = "Acoustic emission of the laboratory";
+      block.pictures = book.keep(catalogue_picture(findings.pictured, findings.catalogues));
+      block.tables.push_back(std::move(recorded));
+      section.blocks.push_back(std::move(block));
+    }
   PageBlock remark_below;
   if (section.blocks.empty())
     remark_below.paragraphs.push_back("No test of these series has a curve.");
