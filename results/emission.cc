@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -133,18 +132,14 @@ std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>&
   return result;
 }
 
-std::vector<double> EmissionCatalogue::magnitudes_between(const double from, const double to) const
+std::vector<double> EmissionCatalogue::magnitudes_to_peak() const
 {
+  const bool has_stress = !events.empty() && std::isfinite(events.front().stress);
   const auto peak =
     std::max_element(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.stress < b.stress; });
   std::vector<double> magnitudes;
-  double highest = -std::numeric_limits<double>::infinity();
-  for (auto event = events.begin(); event != events.end() && (!has_stress() || event <= peak); ++event)
-    {
-      highest = std::max(highest, event->stress);
-      if (!has_stress() || (highest / peak->stress >= from && highest / peak->stress < to))
-        magnitudes.push_back(event->magnitude);
-    }
+  for (auto event = events.begin(); event != events.end() && (!has_stress || event <= peak); ++event)
+    magnitudes.push_back(event->magnitude);
   return magnitudes;
 }
 
@@ -155,8 +150,8 @@ double EmissionCatalogue::step() const
     if (std::isfinite(event.magnitude))
       different.insert(event.magnitude);
   double smallest = std::numeric_limits<double>::infinity();
-  for (auto one = different.begin(); one != different.end() && std::next(one) != different.end(); ++one)
-    smallest = std::min(smallest, *std::next(one) - *one);
-  return std::isfinite(smallest) ? smallest : 0.0;
+  for (auto next = different.begin(), last = next; next != different.end() && ++next != different.end(); last = next)
+    smallest = std::min(smallest, *next - *last);
+  return different.size() > 1 ? smallest : 0.0;
 }
 } // namespace feldspar

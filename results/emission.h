@@ -3,7 +3,6 @@
 #include "laboratory/record.h"
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -67,15 +66,12 @@ struct RecordedEmission
 /// The acoustic emission of a laboratory, in the order of its file.
 struct EmissionCatalogue
 {
-  std::string name;                     ///< of its file
-  std::string scale;                    ///< of its magnitudes, in words
-  std::vector<RecordedEmission> events; ///< one at least
+  std::string name;  ///< of its file
+  std::string scale; ///< of its magnitudes, in words
+  std::vector<RecordedEmission> events;
 
-  bool has_stress() const { return std::isfinite(events.front().stress); }
-
-  /// Magnitudes of the events while the highest stress so far lies between two shares of the highest of all, up to there; of a
-  /// catalogue without stresses all.
-  std::vector<double> magnitudes_between(double from, double to) const;
+  /// Magnitudes of the events up to that with the highest stress; of a catalogue without stresses all.
+  std::vector<double> magnitudes_to_peak() const;
 
   /// Smallest difference of two magnitudes, the step of those that are multiples of one.
   double step() const;

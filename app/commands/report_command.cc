@@ -1,5 +1,4 @@
 #include "app/commands/commands.h"
-#include "app/input/curves/emission_catalogue.h"
 #include "app/programme/run_report.h"
 #include "app/run/file_list.h"
 #include "app/run/output_folder.h"

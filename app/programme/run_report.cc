@@ -24,25 +24,6 @@
 
 namespace feldspar
 {
-namespace
-{
-void write_all_quakeml(const std::vector<Series>& all, const QuakemlOrigin& origin, const std::filesystem::path& folder)
-{
-  bool any = false;
-  for (const Series& series : all)
-    for (const FinishedTest& test : series.tests)
-      if (!test.record.events.empty())
-        {
-          std::filesystem::create_directories(folder);
-          write_quakeml(test, origin, folder / (test.name + ".xml"));
-          any = true;
-        }
-  if (!any)
-    throw InputError(fmt::format("--quakeml: no test has acoustic emission: the folder has no {}, or it has no event",
-                                 result_file::emission));
-}
-} // namespace
-
 std::vector<std::string> report_on(const ReportOrder& order, Progress& progress, const std::function<bool()>& is_over)
 {
   ReportInput input;
@@ -87,7 +68,7 @@ std::vector<std::string> report_on(const ReportOrder& order, Progress& progress,
     input.reference_problem =
       "there is no reference file; name one by Report/Reference file, or by feldspar report --reference";
   if (order.quakeml)
-    write_all_quakeml(input.all, *order.quakeml, order.output / result_file::quakeml);
+    write_quakeml(input.all, *order.quakeml, order.output / result_file::quakeml);
   progress.start("pictures");
   DrawingWatch watch{is_over, [&](const std::size_t n_done, const std::size_t n) {
                        progress.update(double(n_done) / double(n), fmt::format("{} of {}", n_done, n));

@@ -144,24 +144,20 @@ VtkData events_until(const Snapshot& snapshot, const std::vector<EmissionEvent>&
   VtkData data(centroids, VtkData::Cells::points);
   for (const Column<EmissionRow>& column : emission_columns)
     {
-      const std::string name(column.name);
-      if (name.size() == 3 || name.starts_with("moment_x") || name.starts_with("moment_y") || name == "moment_zz_Nm")
-        continue; // x_m, y_m, z_m and the components are points and a tensor
       std::vector<double> values;
       for (const EmissionRow& row : rows)
         values.push_back(column.get(row) * (column.is(positive_in_test) ? kind.sign : 1.0));
       if (column.most > 0.0)
-        data.count(name, {values.begin(), values.end()});
+        data.count(std::string(column.name), {values.begin(), values.end()});
       else
-        data.scalar(name, values);
+        data.scalar(std::string(column.name), values);
     }
   data.tensor("moment_tensor_Nm", moments);
   return data;
 }
 
-/// Grains as spheres of their size, cracks on them, and events as spheres whose volume goes with the moment.
-std::string shown_in_paraview(const std::string& name, const bool has_cracks, const double largest_radius,
-                              const double largest_moment)
+/// Grains as spheres of their size, cracks on them, events as spheres of the size of a circular crack of the same moment.
+std::string shown_in_paraview(const std::string& name, const bool has_cracks, const bool has_events)
 {
   std::string text = fmt::format(R"(grains = PVDReader(FileName=os.path.join(folder, "{0}_grains.pvd"))
 spheres = Glyph(Input=grains, GlyphType="Sphere")
@@ -179,17 +175,17 @@ ColorBy(of_cracks, ("CELLS", "is_shear"))
 of_cracks.LineWidth = 3.0
 )",
                         name);
-  if (largest_moment > 0.0)
+  if (has_events)
     text += fmt::format(R"py(emission = PVDReader(FileName=os.path.join(folder, "{}_emission.pvd"))
 roots = Calculator(Input=emission, Function="moment_Nm^(1/3)", ResultArrayName="root")
 events = Glyph(Input=roots, GlyphType="Sphere")
 events.ScaleArray = ["POINTS", "root"]
-events.ScaleFactor = {:.6g}  # the largest is as five of the largest grains
+events.ScaleFactor = 7.05e-3  # diameter of a crack that lowers the stress by 10 MPa, M = 16/7 10 MPa r^3
 events.GlyphMode = "All Points"
 of_events = Show(events, view)
 ColorBy(of_events, ("POINTS", "isotropic_share"))
 )py",
-                        name, 10.0 * largest_radius / std::cbrt(largest_moment));
+                        name);
   return text;
 }
 } // namespace
@@ -201,7 +197,6 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
   if (appearance.snapshots.empty())
     return;
   const bool in_space = !appearance.snapshots.front().position[2].empty();
-  const int dimension = in_space ? 3 : 2;
   const Points start = places(appearance.snapshots.front());
   make_vtk_folder(folder / name);
   std::vector<VtkTime> of_grains;
@@ -223,18 +218,13 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
       if (!cracks.empty())
         keep(cracks_until(snapshot, cracks, in_space), "cracks", of_cracks);
       if (!events.empty())
-        keep(events_until(snapshot, events, kind, dimension), "emission", of_events);
+        keep(events_until(snapshot, events, kind, in_space ? 3 : 2), "emission", of_events);
     }
   write_vtk_series(of_grains, folder / (name + "_grains.pvd"));
   if (!of_cracks.empty())
     write_vtk_series(of_cracks, folder / (name + "_cracks.pvd"));
   if (!of_events.empty())
     write_vtk_series(of_events, folder / (name + "_emission.pvd"));
-  double largest_radius = 0.0, largest_moment = 0.0;
-  for (const GrainPicture& grain : appearance.grains_at_end)
-    largest_radius = std::max(largest_radius, grain.radius);
-  for (const EmissionEvent& event : events)
-    largest_moment = std::max(largest_moment, mechanism(event, dimension).scalar_moment);
-  write_paraview_script(name, shown_in_paraview(name, !of_cracks.empty(), largest_radius, largest_moment), folder);
+  write_paraview_script(name, shown_in_paraview(name, !of_cracks.empty(), !of_events.empty()), folder);
 }
 } // namespace feldspar

@@ -3,14 +3,17 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
+#include "base/text.h"
 #include "base/whole_file.h"
 #include "results/emission.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <regex>
 #include <sstream>
@@ -56,23 +59,16 @@ std::string add_magnitude(pugi::xml_node event, const std::string& id, const cha
   return own_id;
 }
 
-std::string as_text(const std::chrono::sys_time<std::chrono::nanoseconds> time)
+std::string as_text(const std::time_t start, const double seconds)
 {
-  const auto day = std::chrono::floor<std::chrono::days>(time);
-  const std::chrono::year_month_day date(day);
-  const std::chrono::hh_mm_ss clock(time - day);
-  return fmt::format("{}-{:02}-{:02}T{:02}:{:02}:{:02}.{:09}Z", int(date.year()), unsigned(date.month()),
-                     unsigned(date.day()), clock.hours().count(), clock.minutes().count(), clock.seconds().count(),
-                     clock.subseconds().count());
+  const double whole = std::floor(seconds);
+  return fmt::format("{:%FT%T}.{:09.0f}Z", fmt::gmtime(start + std::time_t(whole)),
+                     std::min(std::round(1e9 * (seconds - whole)), 999999999.0));
 }
 
 void add_event(pugi::xml_node parent, const EmissionEvent& event, const int dimension, const std::string& id,
                const QuakemlOrigin& origin)
 {
-  constexpr double longest = 1e9; // [s], some 30 years
-  if (!(std::abs(event.time) < longest))
-    throw InputError(fmt::format("--quakeml: event {} has the time {:g} s; it must be below {:g} s", event.number,
-                                 event.time, longest));
   const SourceMechanism source = mechanism(event, dimension);
   pugi::xml_node element = add_resource(parent, "event", id);
   add_text(element, "preferredOriginID", id + "/origin");
@@ -84,8 +80,7 @@ void add_event(pugi::xml_node parent, const EmissionEvent& event, const int dime
   const std::size_t north = dimension == 3 ? 1 : 2; // in the plane nothing is known along it, and it is 0
   const std::size_t up = dimension == 3 ? 2 : 1;
   pugi::xml_node place = add_resource(element, "origin", id + "/origin");
-  const std::chrono::nanoseconds since_start(std::llround(1e9 * event.time));
-  add_text(place.append_child("time"), "value", as_text(origin.time + since_start));
+  add_text(place.append_child("time"), "value", as_text(origin.time, event.time));
   add_value(place, "latitude", origin.latitude + event.centroid[north] / earth_radius / degree);
   add_value(place, "longitude",
             origin.longitude + event.centroid[0] / (earth_radius * std::cos(origin.latitude * degree)) / degree);
@@ -119,9 +114,8 @@ void add_event(pugi::xml_node parent, const EmissionEvent& event, const int dime
 
 QuakemlOrigin parse_quakeml_origin(const std::string_view text)
 {
-  static const std::regex form(R"(([0-9.]+) ([NS]), *([0-9.]+) ([EW]), *([^,]+), *)"
-                               R"(([0-9]{4})-([0-9]{2})-([0-9]{2})T([0-9]{2}):([0-9]{2}):([0-9]{2})Z)");
-  const auto refusal = [&](const std::string_view reason) {
+  static const std::regex form("([0-9.]+) ([NS]), *([0-9.]+) ([EW]), *([^,]+), *([0-9-]+T[0-9:]+Z)");
+  const auto refusal = [](const std::string_view reason) {
     return InputError(
       fmt::format("--quakeml must be latitude, longitude, depth and time of the origin of the axes, as in "
                   "\"41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z\": {}",
@@ -134,10 +128,9 @@ QuakemlOrigin parse_quakeml_origin(const std::string_view text)
   QuakemlOrigin origin{};
   try
     {
-      origin = {(part[2] == "N" ? 1.0 : -1.0) * parse_number(part[1].str()),
-                (part[4] == "E" ? 1.0 : -1.0) * parse_number(part[3].str()),
-                parse_quantity(part[5].str(), length),
-                {}};
+      origin.latitude = (part[2] == "N" ? 1.0 : -1.0) * parse_number(part[1].str());
+      origin.longitude = (part[4] == "E" ? 1.0 : -1.0) * parse_number(part[3].str());
+      origin.depth = parse_quantity(part[5].str(), length);
     }
   catch (const InputError& error)
     {
@@ -145,30 +138,43 @@ QuakemlOrigin parse_quakeml_origin(const std::string_view text)
     }
   if (std::abs(origin.latitude) > 89.0 || std::abs(origin.longitude) > 180.0)
     throw refusal("the latitude must be at most 89 and the longitude at most 180 degrees");
-  std::array<int, 6> time{};
-  for (std::size_t k = 0; k < time.size(); ++k)
-    time[k] = std::stoi(part[k + 6]);
-  const std::chrono::year_month_day date{std::chrono::year{time[0]}, std::chrono::month{unsigned(time[1])},
-                                         std::chrono::day{unsigned(time[2])}};
-  if (!date.ok() || time[0] < 1900 || time[0] > 2100 || time[3] > 23 || time[4] > 59 || time[5] > 59)
-    throw refusal("there is no such time from 1900 to 2100");
-  origin.time = std::chrono::sys_days(date) + std::chrono::hours(time[3]) + std::chrono::minutes(time[4]) +
-                std::chrono::seconds(time[5]);
+  std::tm time{};
+  const std::string of_time = part[6];
+  const char* const end = strptime(of_time.c_str(), "%Y-%m-%dT%H:%M:%SZ", &time);
+  const int day = time.tm_mday;
+  origin.time = timegm(&time); // which makes 1 March of 29 February
+  if (end == nullptr || *end != '\0' || time.tm_mday != day)
+    throw refusal("there is no such time");
   return origin;
 }
 
-void write_quakeml(const FinishedTest& test, const QuakemlOrigin& origin, const std::filesystem::path& file)
+void write_quakeml(const std::vector<Series>& all, const QuakemlOrigin& origin, const std::filesystem::path& folder)
 {
-  pugi::xml_document document;
-  pugi::xml_node root = document.append_child("q:quakeml");
-  root.append_attribute("xmlns:q") = "http://quakeml.org/xmlns/quakeml/1.2";
-  root.append_attribute("xmlns") = "http://quakeml.org/xmlns/bed/1.2";
-  const std::string id = "smi:local/feldspar/" + test.name;
-  pugi::xml_node catalogue = add_resource(root, "eventParameters", id);
-  for (const EmissionEvent& event : test.record.events)
-    add_event(catalogue, event, test.record.dimension(), fmt::format("{}/event/{}", id, event.number), origin);
-  std::ostringstream text;
-  document.save(text, " ");
-  write_whole_file(file, text.str());
+  constexpr double longest = 1e9; // of times [s], some 30 years
+  bool any = false;
+  for (const Series& series : all)
+    for (const FinishedTest& test : series.tests)
+      {
+        const std::vector<EmissionEvent>& events = test.record.events;
+        if (events.empty())
+          continue;
+        if (std::any_of(events.begin(), events.end(), [](const auto& one) { return !(std::abs(one.time) < longest); }))
+          throw InputError(fmt::format("--quakeml: an event of {} has a time of more than {:g} s", test.name, longest));
+        pugi::xml_document document;
+        pugi::xml_node root = document.append_child("q:quakeml");
+        root.append_attribute("xmlns:q") = "http://quakeml.org/xmlns/quakeml/1.2";
+        root.append_attribute("xmlns") = "http://quakeml.org/xmlns/bed/1.2";
+        const std::string id = "smi:local/feldspar/" + test.name;
+        pugi::xml_node catalogue = add_resource(root, "eventParameters", id);
+        for (const EmissionEvent& event : events)
+          add_event(catalogue, event, test.record.dimension(), fmt::format("{}/event/{}", id, event.number), origin);
+        std::ostringstream text;
+        document.save(text, " ");
+        std::filesystem::create_directories(folder);
+        write_whole_file(folder / (test.name + ".xml"), text.str());
+        any = true;
+      }
+  if (!any)
+    throw InputError("--quakeml: no test has events of acoustic emission; see emission.csv in the folder of the run");
 }
 } // namespace feldspar

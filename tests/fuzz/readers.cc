@@ -1,6 +1,5 @@
 #include "tests/fuzz/readers.h"
 
-#include "app/input/curves/emission_catalogue.h"
 #include "app/input/curves/laboratory_curve.h"
 #include "app/input/flaw_entries.h"
 #include "app/input/input.h"

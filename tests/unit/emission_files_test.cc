@@ -1,6 +1,6 @@
 // Acoustic emission as QuakeML, and as a laboratory records it.
 
-#include "app/input/curves/emission_catalogue.h"
+#include "app/input/curves/laboratory_curve.h"
 #include "base/input_error.h"
 #include "results/folder/quakeml.h"
 #include "tests/temporary_folder.h"
@@ -41,7 +41,7 @@ TEST(Quakeml, OriginsAreReadOrRefused)
   EXPECT_EQ(origin.latitude, -41.5);
   EXPECT_EQ(origin.longitude, -97.25);
   EXPECT_DOUBLE_EQ(origin.depth, 500.0);
-  EXPECT_EQ(origin.time.time_since_epoch().count(), 1772323198); // by `date`
+  EXPECT_EQ(origin.time, 1772323198); // by `date`
   for (const auto& [text, words] : {std::pair("41, 97, 500 m, 2026-01-01T00:00:00Z", "as in \"41.0 N, 97.0 E, 500 m, "),
                                     {"97 E, 41 N, 500 m, 2026-01-01T00:00:00Z", "found is"},
                                     {"41 N, 97 E, 500, 2026-01-01T00:00:00Z", "a unit is missing"},
@@ -61,14 +61,14 @@ class QuakemlFile : public testing::Test
 protected:
   pugi::xml_node event_of(const std::array<double, 3>& size, const EmissionEvent& event)
   {
-    FinishedTest test;
+    std::vector<Series> all(1);
+    FinishedTest& test = all.front().tests.emplace_back();
     test.name = "uniaxial_compression_seed_1";
     test.record.size = size;
     test.record.events = {event, event};
     test.record.events[1].number = event.number + 1;
-    const auto file = folder.path() / "events.xml";
-    write_quakeml(test, parse_quakeml_origin("60 N, 97 E, 500 m, 2026-12-31T23:59:59Z"), file);
-    EXPECT_TRUE(document.load_file(file.c_str()));
+    write_quakeml(all, parse_quakeml_origin("60 N, 97 E, 500 m, 2026-12-31T23:59:59Z"), folder.path() / "xml");
+    EXPECT_TRUE(document.load_file((folder.path() / "xml" / (test.name + ".xml")).c_str()));
     const pugi::xml_node root = document.child("q:quakeml");
     EXPECT_STREQ(root.attribute("xmlns:q").value(), "http://quakeml.org/xmlns/quakeml/1.2");
     EXPECT_STREQ(root.attribute("xmlns").value(), "http://quakeml.org/xmlns/bed/1.2");
@@ -167,7 +167,12 @@ TEST_F(QuakemlFile, OfAnEventWithoutAMomentHasNoMechanism)
   EXPECT_FALSE(element.child("focalMechanism"));
   EXPECT_FALSE(element.child("magnitude"));
   event.time = 1e10;
-  refuse([&] { event_of({0.05, 0.1, 0.0}, event); }, "event 1 has the time 1e+10 s");
+  refuse(
+    [&] {
+      event_of({0.05, 0.1, 0.0}, event);
+    },
+    "an event of uniaxial_compression_seed_1 has a time of more than 1e+09 s");
+  refuse([] { write_quakeml({}, {}, "nowhere"); }, "no test has events of acoustic emission");
 }
 
 class Catalogue : public testing::Test

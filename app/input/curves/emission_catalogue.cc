@@ -1,4 +1,4 @@
-#include "app/input/curves/emission_catalogue.h"
+#include "app/input/curves/laboratory_curve.h"
 
 #include "base/input_error.h"
 #include "base/quoted.h"

@@ -62,17 +62,13 @@ void add_counts(Chart& chart, std::vector<double> magnitudes, const std::optiona
   chart.series.push_back(std::move(counts));
 }
 
-Chart empty_chart(const std::string& magnitude)
-{
-  return {.x = {.label = magnitude},
-          .y = {.label = "events of this magnitude or more", .logarithmic = true},
-          .key_columns = 2};
-}
 } // namespace
 
 Pictures magnitude_picture(const SameTests& same)
 {
-  Chart chart = empty_chart("moment magnitude");
+  Chart chart{.x = {.label = "moment magnitude"},
+              .y = {.label = "events of this magnitude or more", .logarithmic = true},
+              .key_columns = 2};
   for (const auto& of : same)
     {
       const std::vector<double> magnitudes = magnitudes_to_peak(of.group);
@@ -89,9 +85,12 @@ Pictures magnitude_picture(const SameTests& same)
 Pictures catalogue_picture(const std::vector<Series>& all, const std::vector<EmissionCatalogue>& catalogues)
 {
   constexpr int width = 580; // [px]
-  Chart chart = empty_chart("magnitude above completeness");
-  std::vector<std::string> scales;
-  std::size_t n_lines = 0;
+  Chart chart{.x = {.label = "magnitude above completeness"},
+              .y = {.label = "events of this magnitude or more", .logarithmic = true},
+              .key_columns = 2};
+  std::string caption =
+    "Acoustic emission of the laboratory and of the model, up to the peak: number of events over their "
+    "magnitude above completeness";
   const auto add = [&](const std::vector<double>& magnitudes, const double step, const std::string& name,
                        const std::string& its_colour) {
     if (const auto frequency = magnitude_frequency(magnitudes, step))
@@ -99,23 +98,21 @@ Pictures catalogue_picture(const std::vector<Series>& all, const std::vector<Emi
   };
   for (const EmissionCatalogue& catalogue : catalogues)
     {
-      add(catalogue.magnitudes_between(-infinity, infinity), catalogue.step(), catalogue.name, black);
-      scales.push_back(fmt::format("{}: {}", catalogue.name, catalogue.scale));
+      add(catalogue.magnitudes_to_peak(), catalogue.step(), catalogue.name, black);
+      caption += fmt::format("; magnitudes of {}: {}", catalogue.name, catalogue.scale);
     }
   if (chart.empty())
     return {};
+  std::size_t n_lines = 0;
   for (const Series& series : all)
     for (const TestGroup& group : shown(groups_of(series)))
       add(magnitudes_to_peak(group), 0.0, all.size() > 1 ? group.title() + ", " + series.label : group.title(),
           colour(series, n_lines++));
-  return {
-    {.name = "emission_catalogues",
-     .caption = fmt::format("Acoustic emission of the laboratory beside that of the model, both up to the peak: number "
-                            "of events over their magnitude above completeness. Magnitudes of {}",
-                            fmt::join(scales, "; of ")),
-     .alternative = "Number of events of acoustic emission over their magnitude, of the laboratory and of the model.",
-     .width = width,
-     .height = 450 + further_height(chart, width),
-     .panels = {std::move(chart)}}};
+  return {{.name = "emission_catalogues",
+           .caption = caption,
+           .alternative = "Number of events of acoustic emission over magnitude, of the laboratory and of the model.",
+           .width = width,
+           .height = 450 + further_height(chart, width),
+           .panels = {std::move(chart)}}};
 }
 } // namespace feldspar
