@@ -1,6 +1,7 @@
 // The files for ParaView, opened by VTK as ParaView opens them.
 
 #include "dem/lab/protocols/protocols.h"
+#include "results/emission.h"
 #include "results/folder/result_folder.h"
 #include "results/sample_fields.h"
 #include "tests/app/run_command.h"
