@@ -195,6 +195,11 @@ private:
       ->allow_extra_args(false)
       ->needs(curve);
     command
+      .add_option("--catalogue", report.catalogues,
+                  "acoustic emission recorded in a laboratory, a row for each event or hit; may be repeated")
+      ->type_name("CSV")
+      ->allow_extra_args(false);
+    command
       .add_option("--reference", report.reference, "figures of the rock (default: those the runs were set beside)")
       ->type_name("JSON");
     command
@@ -202,6 +207,12 @@ private:
                   "folder of the report (default: the folder itself if there is one, else report-results-001, ...)")
       ->type_name("DIR");
     command.add_flag("--film", report.film, "write the cracking of the tests as film.webp too, by Chromium");
+    command
+      .add_option(
+        "--quakeml", report.quakeml,
+        "write the acoustic emission of the tests into quakeml/ too; latitude, longitude, depth and time of the "
+        "origin of the axes: \"41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z\"")
+      ->type_name("ORIGIN");
     command.add_flag("--force", report.force, "write over what is in the folder");
     add_threads(command);
     command.add_flag("--quiet", report.quiet, "do not say what is missing in it");
@@ -209,6 +220,7 @@ private:
     add_examples(command, "feldspar report granite slate --reference rock.json\n"
                           "  feldspar report granite --curve core.csv\n"
                           "  feldspar report --curve disc.csv --curve-test brazilian --curve-size '50, 25 mm'\n"
+                          "  feldspar report granite --catalogue emission.csv\n"
                           "  feldspar report granite --film");
   }
 

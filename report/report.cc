@@ -80,7 +80,8 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
                     {},
                     input.envelopes,
                     {},
-                    input.calibration ? &*input.calibration : nullptr};
+                    input.calibration ? &*input.calibration : nullptr,
+                    input.catalogues};
   if (input.one_folder) // of several folders the same variant may come twice
     {
       std::vector<const FinishedTest*> tests;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "report/pictures/picture.h"
+#include "results/emission.h"
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
@@ -22,6 +23,7 @@ struct ReportInput
   std::string reference_problem;                               ///< why there is none although there should be one
   std::optional<CalibrationRecord> calibration = std::nullopt; ///< of the one folder, if it is of one
   bool one_folder = true; ///< the names of tests are unlike; every test gets pictures of its own, as files
+  std::vector<EmissionCatalogue> catalogues = {}; ///< of acoustic emission, recorded in a laboratory
 };
 
 /// Writes report.html, figures/ and tables/ into a folder that exists. Once watch.is_over() says so no more pictures are drawn,

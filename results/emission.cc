@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 namespace feldspar
 {
@@ -88,26 +89,25 @@ HudsonPlace hudson_place(const EmissionEvent& event, const int dimension)
   return {-2.0 / 3.0 * (m[0] + m[2] - 2.0 * m[1]) / largest, m.mean() / largest};
 }
 
-double energy_magnitude(const EmissionEvent& event)
+double energy_magnitude(const double energy)
 {
-  return event.released_energy > 0.0 ? std::log10(event.released_energy) / 1.5 - 2.9
-                                     : std::numeric_limits<double>::quiet_NaN();
+  return energy > 0.0 ? std::log10(energy) / 1.5 - 2.9 : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>& magnitudes)
+std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>& magnitudes, const double step)
 {
   constexpr double bin = 0.1;
   constexpr std::size_t fewest = 30;
   std::map<double, std::size_t> n_of_bin;
   for (const double one : magnitudes)
     if (std::isfinite(one))
-      ++n_of_bin[std::floor(one / bin)];
+      ++n_of_bin[std::floor((one + 0.5 * step) / bin)];
   if (n_of_bin.empty())
     return std::nullopt;
   const auto fullest = std::max_element(n_of_bin.begin(), n_of_bin.end(),
                                         [](const auto& a, const auto& b) { return a.second < b.second; });
   MagnitudeFrequency result{};
-  result.completeness = bin * fullest->first;
+  result.completeness = bin * fullest->first - 0.5 * step;
   std::vector<double> counted;
   std::copy_if(magnitudes.begin(), magnitudes.end(), std::back_inserter(counted),
                [&](const double one) { return one >= result.completeness; });
@@ -135,7 +135,30 @@ std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>&
     return std::nullopt;
   result.b = std::numbers::log10e / (mean - result.completeness);
   result.error = std::numbers::ln10 * result.b * result.b * std::sqrt(squares / (n * (n - 1.0)));
-  result.b_positive = std::numbers::log10e * n_rises / rises;
+  result.b_positive = std::numbers::log10e * n_rises / (rises - 0.5 * step * n_rises);
   return result;
+}
+
+std::vector<double> EmissionCatalogue::magnitudes_to_peak() const
+{
+  const bool has_stress = !events.empty() && std::isfinite(events.front().stress);
+  const auto peak =
+    std::max_element(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.stress < b.stress; });
+  std::vector<double> magnitudes;
+  for (auto event = events.begin(); event != events.end() && (!has_stress || event <= peak); ++event)
+    magnitudes.push_back(event->magnitude);
+  return magnitudes;
+}
+
+double EmissionCatalogue::step() const
+{
+  std::set<double> different;
+  for (const RecordedEmission& event : events)
+    if (std::isfinite(event.magnitude))
+      different.insert(event.magnitude);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (auto next = different.begin(), last = next; next != different.end() && ++next != different.end(); last = next)
+    smallest = std::min(smallest, *next - *last);
+  return different.size() > 1 ? smallest : 0.0;
 }
 } // namespace feldspar

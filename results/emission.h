@@ -2,7 +2,9 @@
 
 #include "laboratory/record.h"
 
+#include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,7 +40,7 @@ HudsonPlace hudson_place(const EmissionEvent& event, int dimension);
 
 /// M_e = ⅔ log10 E − 2.9, E in J (Choy and Boatwright 1995), of all the energy that the breaks released, of which a part is
 /// radiated; NaN without any.
-double energy_magnitude(const EmissionEvent& event);
+double energy_magnitude(double energy);
 
 /// The fall of the number of events with their magnitude: log10 N = a − b M.
 struct MagnitudeFrequency
@@ -57,5 +59,31 @@ std::vector<EmissionEvent> events_between(const TestRecord& record, const std::o
                                           double from, double to);
 
 /// The fall for magnitudes in the order of the events, those of several tests parted by NaN; none with fewer than 30 that count.
-std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>& magnitudes);
+/// `step`: between magnitudes that are multiples of one, as of amplitudes in whole decibels; a magnitude stands for those within
+/// half a step of it.
+std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>& magnitudes, double step = 0.0);
+
+/// An event or a hit that a laboratory has recorded; NaN where its file has no such column.
+struct RecordedEmission
+{
+  double time;                 ///< [s]
+  double axial_strain;         ///< as the file has it
+  double stress;               ///< axial or deviator, as the file has it [Pa]
+  std::array<double, 3> place; ///< [m]
+  double magnitude; ///< of an amplitude A/20, A in dB; of an energy as energy_magnitude(); NaN without energy
+};
+
+/// The acoustic emission of a laboratory, in the order of its file.
+struct EmissionCatalogue
+{
+  std::string name;  ///< of its file
+  std::string scale; ///< of its magnitudes, in words
+  std::vector<RecordedEmission> events;
+
+  /// Magnitudes of the events up to that with the highest stress; of a catalogue without stresses all.
+  std::vector<double> magnitudes_to_peak() const;
+
+  /// Smallest difference of two magnitudes, the step of those that are multiples of one.
+  double step() const;
+};
 } // namespace feldspar

@@ -3,89 +3,25 @@
 #include "base/input_error.h"
 #include "base/readable_file.h"
 #include "base/system/hdf5_archive.h"
+#include "base/text.h"
 #include "laboratory/named_entries.h"
 
-#include <boost/property_tree/ptree.hpp>
-#include <expat.h>
 #include <fmt/format.h>
+#include <pugixml.hpp>
 
 #include <algorithm>
-#include <memory>
-#include <new>
-#include <optional>
-#include <type_traits>
+#include <string_view>
 
 namespace feldspar
 {
 namespace
 {
-using Xml = boost::property_tree::ptree;
-
 std::string expected() { return fmt::format("a field of `{}`", input_entries::multiscale); }
 
-std::string objection_to_content() { return fmt::format("not XDMF of `{}`, or cut short", input_entries::multiscale); }
-
-/// Reads XML as boost/property_tree has it, attributes as children of <xmlattr>, but to a limited depth: readers that
-/// descend into it use the stack.
-class XmlReader
+InputError objection_to_content(const std::filesystem::path& index)
 {
-public:
-  static Xml read(const std::filesystem::path& file)
-  {
-    const std::string text = content_of(file);
-    XmlReader reader;
-    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(
-      XML_ParserCreate(nullptr), XML_ParserFree);
-    if (!parser)
-      throw std::bad_alloc();
-    XML_SetUserData(parser.get(), &reader);
-    XML_SetElementHandler(parser.get(), &XmlReader::begin, &XmlReader::end);
-    XML_SetCharacterDataHandler(parser.get(), &XmlReader::add_text);
-    constexpr std::size_t piece_size = std::size_t(1) << 20; // the parser counts in int
-    bool is_xml = true;
-    for (std::size_t at = 0; is_xml && !reader.is_too_deep && at < text.size(); at += piece_size)
-      is_xml = XML_Parse(parser.get(), text.data() + at, int(std::min(piece_size, text.size() - at)),
-                         at + piece_size >= text.size()) == XML_STATUS_OK;
-    if (reader.is_too_deep)
-      throw InputError(fmt::format("{}: is nested more than {} levels deep", file.string(), most_levels));
-    if (!is_xml || text.empty())
-      throw InputError(fmt::format("{}: {}", file.string(), objection_to_content()));
-    return std::move(reader.root);
-  }
-
-private:
-  static constexpr std::size_t most_levels = 100;
-
-  static void begin(void* const reader, const char* const name, const char** attribute)
-  {
-    auto& self = *static_cast<XmlReader*>(reader);
-    self.is_too_deep = self.is_too_deep || self.open.size() > most_levels;
-    if (self.is_too_deep)
-      return; // an exception cannot pass through the library
-    Xml& element = self.open.back()->push_back({name, {}})->second;
-    for (; *attribute; attribute += 2)
-      element.push_back({"<xmlattr>", {}})->second.push_back({attribute[0], Xml(attribute[1])});
-    self.open.push_back(&element);
-  }
-
-  static void end(void* const reader, const char*)
-  {
-    auto& self = *static_cast<XmlReader*>(reader);
-    if (!self.is_too_deep)
-      self.open.pop_back();
-  }
-
-  static void add_text(void* const reader, const char* const text, const int length)
-  {
-    auto& self = *static_cast<XmlReader*>(reader);
-    if (!self.is_too_deep)
-      self.open.back()->data().append(text, std::size_t(length));
-  }
-
-  Xml root;
-  std::vector<Xml*> open{&root}; ///< elements, the outermost first
-  bool is_too_deep = false;
-};
+  return InputError(fmt::format("{}: not XDMF of `{}`, or cut short", index.string(), input_entries::multiscale));
+}
 
 /// "FILE:/ARRAY" of a <DataItem>.
 struct Place
@@ -94,9 +30,9 @@ struct Place
   std::string array;
 };
 
-Place place_of(const Xml& parent)
+Place place_of(const pugi::xml_node& parent)
 {
-  std::string text = parent.get<std::string>("DataItem");
+  std::string text = parent.child_value("DataItem");
   text.erase(std::remove_if(text.begin(), text.end(), [](const char c) { return c == ' ' || c == '\n' || c == '\t'; }),
              text.end());
   const std::size_t colon = text.find(":/");
@@ -116,22 +52,34 @@ struct IndexedTime
   std::map<std::string, Place> fields;
 };
 
+/// Says whether elements are nested less deep than in a file that was made up.
+struct LimitOfDepth : pugi::xml_tree_walker
+{
+  static constexpr int most_levels = 100;
+  bool for_each(pugi::xml_node&) override { return depth() < most_levels; }
+};
+
 /// Times in an index in their order, one at least.
 std::vector<IndexedTime> times_in(const std::filesystem::path& index)
 {
-  const Xml xml = XmlReader::read(index);
+  const std::string text = content_of(index);
+  pugi::xml_document xml;
+  const pugi::xml_parse_result parsed = xml.load_buffer(text.data(), text.size());
+  if (LimitOfDepth limit; !xml.traverse(limit))
+    throw InputError(fmt::format("{}: is nested more than {} levels deep", index.string(), LimitOfDepth::most_levels));
+  const pugi::xml_node all = xml.child("Xdmf").child("Domain").child("Grid");
+  if (!parsed || !all)
+    throw objection_to_content(index);
   std::vector<IndexedTime> times;
-  for (const auto& [tag, child] : xml.get_child("Xdmf.Domain.Grid"))
-    if (tag == "Grid")
-      {
-        times.push_back({child.get<double>("Time.<xmlattr>.Value"),
-                         place_of(child.get_child("Geometry")),
-                         place_of(child.get_child("Topology")),
-                         {}});
-        for (const auto& [part, attribute] : child)
-          if (part == "Attribute")
-            times.back().fields[attribute.get<std::string>("<xmlattr>.Name")] = place_of(attribute);
-      }
+  for (const pugi::xml_node& grid : all.children("Grid"))
+    {
+      const std::string_view time = grid.child("Time").attribute("Value").value();
+      if (!is_decimal_number(time))
+        throw objection_to_content(index);
+      times.push_back({parse_number(time), place_of(grid.child("Geometry")), place_of(grid.child("Topology")), {}});
+      for (const pugi::xml_node& attribute : grid.children("Attribute"))
+        times.back().fields[attribute.attribute("Name").value()] = place_of(attribute);
+    }
   if (times.empty())
     throw InputError("there is no time in it");
   return times;
@@ -193,54 +141,31 @@ std::filesystem::path index_of(const std::filesystem::path& folder, const std::s
 {
   return folder / (name + ".xdmf");
 }
-
-/// Says which index it was that could not be read.
-template <typename Work>
-auto reading(const std::filesystem::path& index, Work&& work)
-{
-  if (const std::string objection = objection_to_reading(index); !objection.empty())
-    throw InputError(fmt::format("{}: {}", index.string(), objection));
-  try
-    {
-      return work();
-    }
-  catch (const boost::property_tree::ptree_error& error)
-    {
-      throw InputError(fmt::format("{}: {}", index.string(), objection_to_content()));
-    }
-}
 } // namespace
 
 SampleFields read_sample_fields(const std::filesystem::path& folder, const std::string& name)
 {
-  const auto index = index_of(folder, name);
-  return reading(index, [&] { return fields_of(folder, times_in(index).back()); });
+  return fields_of(folder, times_in(index_of(folder, name)).back());
 }
 
 std::vector<SampleFields> read_earlier_sample_fields(const std::filesystem::path& folder, const std::string& name,
                                                      const std::size_t most_cells)
 {
-  const auto index = index_of(folder, name);
-  return reading(index, [&] {
-    std::vector<SampleFields> earlier;
-    const auto times = times_in(index);
-    for (std::size_t k = 0; k + 1 < times.size(); ++k)
-      {
-        earlier.push_back(fields_of(folder, times[k]));
-        if (earlier.front().cells.size() * (times.size() - 1) > most_cells)
-          return std::vector<SampleFields>();
-      }
-    return earlier;
-  });
+  std::vector<SampleFields> earlier;
+  const auto times = times_in(index_of(folder, name));
+  for (std::size_t k = 0; k + 1 < times.size(); ++k)
+    {
+      earlier.push_back(fields_of(folder, times[k]));
+      if (earlier.front().cells.size() * (times.size() - 1) > most_cells)
+        return {};
+    }
+  return earlier;
 }
 
 void for_each_time(const std::filesystem::path& folder, const std::string& name,
                    const std::function<void(const SampleFields&)>& look)
 {
-  const auto index = index_of(folder, name);
-  reading(index, [&] {
-    for (const IndexedTime& one : times_in(index))
-      look(fields_of(folder, one));
-  });
+  for (const IndexedTime& one : times_in(index_of(folder, name)))
+    look(fields_of(folder, one));
 }
 } // namespace feldspar

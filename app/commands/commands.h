@@ -72,9 +72,11 @@ std::string contact_response(const Input& input, const std::filesystem::path& in
 struct ReportOptions
 {
   std::vector<std::filesystem::path> result_folders;
-  std::vector<std::filesystem::path> curves; ///< measured in a laboratory
-  std::vector<std::string> curve_sizes;      ///< of their specimens; one for all, or one for each
-  std::vector<std::string> curve_tests;      ///< names of tests; the same
+  std::vector<std::filesystem::path> curves;     ///< measured in a laboratory
+  std::vector<std::string> curve_sizes;          ///< of their specimens; one for all, or one for each
+  std::vector<std::string> curve_tests;          ///< names of tests; the same
+  std::vector<std::filesystem::path> catalogues; ///< of acoustic emission, recorded in a laboratory
+  std::optional<std::string> quakeml;            ///< origin of the axes on earth, for events as QuakeML
   std::optional<std::filesystem::path> reference;
   std::optional<std::filesystem::path> output;
   bool film = false;

@@ -3,6 +3,7 @@
 #include "app/run/file_list.h"
 #include "app/run/output_folder.h"
 #include "app/screen/print_result.h"
+#include "base/append.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "dem/lab/protocols/protocols.h"
@@ -18,6 +19,12 @@ int run_report(const ReportOptions& options)
                     measured_curves(options.curves, options.curve_sizes, options.curve_tests),
                     options.reference,
                     {}};
+  for (const std::filesystem::path& file : options.catalogues)
+    order.catalogues.push_back(read_emission_catalogue(file));
+  if (options.quakeml)
+    order.quakeml = parse_quakeml_origin(*options.quakeml);
+  if (order.quakeml && order.result_folders.size() != 1)
+    throw InputError("--quakeml needs the results of one folder, whose tests have names of their own");
   if (order.result_folders.empty() && order.curves.empty())
     throw InputError("report needs the folders of results, or --curve with a measured one; see feldspar report --help");
   // The report of one folder goes into it, beside its results.
@@ -28,6 +35,7 @@ int run_report(const ReportOptions& options)
     read_reference(*options.reference, test_kinds()); // before anything is written
   const auto write_over = [&](const std::filesystem::path& results) {
     std::vector<std::filesystem::path> inputs = options.curves;
+    append(inputs, options.catalogues);
     if (options.reference)
       inputs.push_back(*options.reference);
     if (!beside_results)

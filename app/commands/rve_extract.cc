@@ -83,7 +83,7 @@ std::string extract(const PlannedSample& planned, const SampleTest& test, const 
   const auto file = folder / (name + ".h5");
   write_rve(specimen, rve.network->boundary(), rve.state, file);
   const RveView seen = as_seen(specimen, rve, of_sample);
-  write_fields(name + "_fields", of_sample.kind, seen.cracks, seen.appearance, folder);
+  write_fields(name + "_fields", of_sample.kind, seen.cracks, {}, seen.appearance, folder);
   return fmt::format("{}\n  at {} mm, its axes turned by {}; strain of the sample {:.4g} %; {} broken segments\n",
                      file.string(), describe_position<dim>(rve.position), describe_turn<dim>(rve.orientation),
                      100.0 * planned.test.kind.sign * of_sample.curve.back().axial_strain,

@@ -46,6 +46,7 @@ std::vector<std::string> report_on(const ReportOrder& order, Progress& progress,
       {
         calibration_problem = error.what(); // the tests are there none the less
       }
+  input.catalogues = order.catalogues;
   if (!order.curves.empty())
     input.all.push_back(read_laboratory_curves(order.curves));
   for (const auto& series : input.all)
@@ -66,6 +67,8 @@ std::vector<std::string> report_on(const ReportOrder& order, Progress& progress,
   else
     input.reference_problem =
       "there is no reference file; name one by Report/Reference file, or by feldspar report --reference";
+  if (order.quakeml)
+    write_quakeml(input.all, *order.quakeml, order.output / result_file::quakeml);
   progress.start("pictures");
   DrawingWatch watch{is_over, [&](const std::size_t n_done, const std::size_t n) {
                        progress.update(double(n_done) / double(n), fmt::format("{} of {}", n_done, n));
@@ -86,8 +89,8 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
   std::filesystem::create_directories(folder / result_file::fields);
   for (const auto& test : tests)
     if (test.record.body == TestBody::grains)
-      write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / result_file::fields,
-                   group_name(test.record));
+      write_fields(test.name, test.record.kind, test.record.cracks, test.record.events, test.appearance,
+                   folder / result_file::fields, group_name(test.record));
     else if (std::filesystem::exists(folder / result_file::fields / (test.name + ".xdmf"))) // written step by step
       try
         {

@@ -3,7 +3,9 @@
 #include "app/input/curves/laboratory_curve.h"
 #include "app/screen/progress.h"
 #include "base/text.h"
+#include "results/emission.h"
 #include "results/fits/run_envelopes.h"
+#include "results/folder/quakeml.h"
 #include "results/folder/reference.h"
 #include "results/runs/run.h"
 
@@ -25,6 +27,8 @@ struct ReportOrder
   std::optional<std::filesystem::path> reference; ///< else that of the first folder that has one
   std::filesystem::path output;                   ///< exists
   RunEnvelopes envelopes{}; ///< of the one folder of a run that has just fitted them; what is not there is fitted
+  std::vector<EmissionCatalogue> catalogues{}; ///< recorded in a laboratory
+  std::optional<QuakemlOrigin> quakeml{};      ///< of the tests of the one folder
 };
 
 /// Reads, and writes the report, until is_over() says that no more pictures are to be drawn. Returns what is missing in it and

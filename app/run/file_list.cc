@@ -185,11 +185,11 @@ const Places places_of_runs{{record_name, "input.prm", "input.json", "summary.js
                              "emission.csv", "steps.csv", "reference.json", page_name, film_name, "log.txt",
                              "calibration.json", "design.csv", "posterior.csv", "best.prm", "nearest.prm"},
                             {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
-                             "figures", "tables", "calibration", "volumes" /* of 0.2.0, now rves */},
+                             "figures", "tables", "quakeml", "calibration", "volumes" /* of 0.2.0, now rves */},
                             true};
 const Places places_of_specimens{{}, {"packings"}, true};
 const Places places_of_contacts{{"contact.csv"}, {}, false};
-const Places places_of_reports{{page_name, film_name}, {"figures", "tables"}, false};
+const Places places_of_reports{{page_name, film_name}, {"figures", "tables", "quakeml"}, false};
 
 FileList::FileList(const std::filesystem::path& its_folder)
   : folder(plain(its_folder))

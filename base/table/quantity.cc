@@ -268,6 +268,8 @@ double unit_in_si(const std::string_view unit, const Dimension& dimension)
         if (unit == name)
           return in_si;
     }
+  if (unit == dimension.si_unit || (&dimension == &energy && unit == "eu"))
+    return 1.0;
   return parse_quantity(fmt::format("1 {}", unit), dimension);
 }
 

@@ -33,6 +33,8 @@ inline constexpr Dimension acceleration{"an acceleration", "m/s^2", "0, -9.81 m/
 inline constexpr Dimension stress_rate{"a stress rate", "Pa/s", "0.7 MPa/s"};
 inline constexpr Dimension force_rate{"a force rate", "N/s", "0.5 kN/s"};
 inline constexpr Dimension velocity{"a velocity", "m/s", "0.1 mm/min"};
+inline constexpr Dimension energy{"an energy", "J", "2 aJ"};
+inline constexpr Dimension amplitude{"an amplitude", "dB", "45 dB"};
 
 /// Returns a number in SI, 0 in place of one below 1e-30. Throws InputError for one above 1e30. No rock, body or test has
 /// such sizes, which vanish or overflow in products.
@@ -48,8 +50,8 @@ std::vector<double> parse_quantities(std::string_view text, const Dimension& dim
 /// last. A text that does not begin with a number and two dots is a value by itself. Throws InputError.
 std::vector<std::string> values_of_range(std::string_view text);
 
-/// A unit as it stands in the header of a table, in SI; strains may have none of it ("-"), or µε, mm/mm or 1e-6. Throws
-/// InputError.
+/// A unit as it stands in the header of a table, in SI; strains may have none of it ("-"), or µε, mm/mm or 1e-6, energies of
+/// acoustic emission "eu", which is taken as it is. Throws InputError.
 double unit_in_si(std::string_view unit, const Dimension& dimension);
 
 /// A value given in `unit`, in SI.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "report/pictures/picture.h"
+#include "results/emission.h"
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
@@ -78,6 +79,10 @@ FigureOfAll p_q_picture;               ///< q = σ₁ − σ₃ over the mean st
 FigureOfAll shear_share_picture;       ///< share of shear cracks at the peak over confinement
 inline constexpr std::array strength_figures_of_all{combined_envelope_picture, p_q_picture};
 inline constexpr std::array crack_figures_of_all{shear_share_picture};
+
+/// Number of events over their magnitude above completeness of catalogues that a laboratory has recorded, beside that of the
+/// model's tests.
+Pictures catalogue_picture(const std::vector<Series>& all, const std::vector<EmissionCatalogue>& catalogues);
 
 /// Results over each entry that takes two numbers or more: mean and standard deviation over the seeds, a line for each
 /// test of the programme. Where other entries take several values too, each of their combinations has lines of its own;

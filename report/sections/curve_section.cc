@@ -40,12 +40,15 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
         is_all_shown = false;
         book.keep_as_files(std::move(group.pictures));
       }
+  append(stresses.pictures, book.keep(catalogue_picture(findings.pictured, findings.catalogues)));
   if (!stresses.pictures.empty())
     section.blocks.push_back(std::move(stresses));
   append(section.blocks, std::move(further));
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
-      if (Table emission = emission_table(findings.all[n]); !emission.rows.empty() && findings.is_in_full(n))
+      if (Table emission =
+            emission_table(findings.all[n], n == 0 ? findings.catalogues : std::vector<EmissionCatalogue>());
+          !emission.rows.empty() && findings.is_in_full(n))
         {
           emission.name += findings.ending_of_files(n);
           PageBlock block;

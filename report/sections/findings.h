@@ -2,6 +2,7 @@
 
 #include "report/page/page.h"
 #include "report/sections/comparison.h"
+#include "results/emission.h"
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/reference.h"
 #include "results/runs/series.h"
@@ -28,6 +29,7 @@ struct Findings
   std::vector<StrengthEnvelopes> envelopes;            ///< of each series
   std::vector<std::string> repeats = {};               ///< sentences on entries of a study that have no effect
   const CalibrationRecord* calibration = nullptr;      ///< of which the first series tests the answer
+  std::vector<EmissionCatalogue> catalogues = {};      ///< of acoustic emission, recorded in a laboratory
 
   bool has_several() const { return all.size() > 1; }
   /// Returns whether the series are the variants of one run.

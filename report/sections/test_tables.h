@@ -14,8 +14,9 @@ Table specimen_table(const Series& series);
 /// The stages of tests that follow a loading table, a row each; no rows where there are no such tests.
 Table stage_table(const std::vector<FinishedTest>& tests);
 
-/// Acoustic emission of every kind of test in windows of stress up to the peak; no rows without events.
-Table emission_table(const Series& series);
+/// Acoustic emission of every kind of test in windows of stress up to the peak, and of catalogues of a laboratory; no rows without
+/// events.
+Table emission_table(const Series& series, const std::vector<EmissionCatalogue>& catalogues);
 
 /// Figures of every test in SI: the page shows those that are read most, the file has all.
 Table test_table(const Findings& findings);

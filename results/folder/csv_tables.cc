@@ -238,10 +238,9 @@ void write_events(const std::vector<FinishedTest>& tests, const std::filesystem:
   for (const auto& test : tests)
     for (const EmissionEvent& event : test.record.events)
       {
-        const SourceMechanism source = mechanism(event, test.record.dimension());
-        append_row(text, emission_columns, EmissionRow{event, event.n_breaks(), source, energy_magnitude(event)},
-                   test.record.kind.sign);
-        text.insert(text.size() - 1, fmt::format(",{},{}", test.name, source.kind));
+        const EmissionRow row = emission_row(event, test.record.dimension());
+        append_row(text, emission_columns, row, test.record.kind.sign);
+        text.insert(text.size() - 1, fmt::format(",{},{}", test.name, row.source.kind));
       }
   write_whole_file(file, text);
 }

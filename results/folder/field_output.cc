@@ -1,5 +1,6 @@
 #include "results/folder/field_output.h"
 
+#include "results/folder/table_columns.h"
 #include "results/folder/vtk_data.h"
 
 #include <fmt/format.h>
@@ -94,10 +95,17 @@ void add_face(Points& corners, const Crack& crack, const bool in_space)
       corner(along_u, along_v);
 }
 
+/// The end of the cracks or events up to a snapshot.
+template <typename Row>
+auto end_at(const Snapshot& snapshot, const std::vector<Row>& all)
+{
+  return std::upper_bound(all.begin(), all.end(), snapshot.step,
+                          [](const std::uint64_t step, const Row& row) { return step < row.step; });
+}
+
 VtkData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all, const bool in_space)
 {
-  const auto end = std::upper_bound(all.begin(), all.end(), snapshot.step,
-                                    [](const std::uint64_t step, const Crack& crack) { return step < crack.step; });
+  const auto end = end_at(snapshot, all);
   Points corners;
   Points normal;
   std::vector<double> size, energy;
@@ -119,8 +127,37 @@ VtkData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all, co
   data.count("step", step);
   return data;
 }
-/// Grains as spheres of their size, cracks on them.
-std::string shown_in_paraview(const std::string& name, const bool has_cracks)
+
+VtkData events_until(const Snapshot& snapshot, const std::vector<EmissionEvent>& all, const TestKind& kind,
+                     const int dimension)
+{
+  Points centroids;
+  std::vector<std::array<double, 6>> moments;
+  std::vector<EmissionRow> rows;
+  const auto end = end_at(snapshot, all);
+  for (auto event = all.begin(); event != end; ++event)
+    {
+      centroids.push_back(event->centroid);
+      moments.push_back(event->moment);
+      rows.push_back(emission_row(*event, dimension));
+    }
+  VtkData data(centroids, VtkData::Cells::points);
+  for (const Column<EmissionRow>& column : emission_columns)
+    {
+      std::vector<double> values;
+      for (const EmissionRow& row : rows)
+        values.push_back(column.get(row) * (column.is(positive_in_test) ? kind.sign : 1.0));
+      if (column.most > 0.0)
+        data.count(std::string(column.name), {values.begin(), values.end()});
+      else
+        data.scalar(std::string(column.name), values);
+    }
+  data.tensor("moment_tensor_Nm", moments);
+  return data;
+}
+
+/// Grains as spheres of their size, cracks on them, events as spheres of the size of a circular crack of the same moment.
+std::string shown_in_paraview(const std::string& name, const bool has_cracks, const bool has_events)
 {
   std::string text = fmt::format(R"(grains = PVDReader(FileName=os.path.join(folder, "{0}_grains.pvd"))
 spheres = Glyph(Input=grains, GlyphType="Sphere")
@@ -138,12 +175,24 @@ ColorBy(of_cracks, ("CELLS", "is_shear"))
 of_cracks.LineWidth = 3.0
 )",
                         name);
+  if (has_events)
+    text += fmt::format(R"py(emission = PVDReader(FileName=os.path.join(folder, "{}_emission.pvd"))
+roots = Calculator(Input=emission, Function="moment_Nm^(1/3)", ResultArrayName="root")
+events = Glyph(Input=roots, GlyphType="Sphere")
+events.ScaleArray = ["POINTS", "root"]
+events.ScaleFactor = 7.05e-3  # diameter of a crack that lowers the stress by 10 MPa, M = 16/7 10 MPa r^3
+events.GlyphMode = "All Points"
+of_events = Show(events, view)
+ColorBy(of_events, ("POINTS", "isotropic_share"))
+)py",
+                        name);
   return text;
 }
 } // namespace
 
 void write_fields(const std::string& name, const TestKind& kind, const std::vector<Crack>& cracks,
-                  const TestAppearance& appearance, const std::filesystem::path& folder, const std::string& group)
+                  const std::vector<EmissionEvent>& events, const TestAppearance& appearance,
+                  const std::filesystem::path& folder, const std::string& group)
 {
   if (appearance.snapshots.empty())
     return;
@@ -152,6 +201,7 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
   make_vtk_folder(folder / name);
   std::vector<VtkTime> of_grains;
   std::vector<VtkTime> of_cracks;
+  std::vector<VtkTime> of_events;
   for (std::size_t k = 0; k < appearance.snapshots.size(); ++k)
     {
       const Snapshot& snapshot = appearance.snapshots[k];
@@ -167,10 +217,14 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
       keep(grains_at(snapshot, start, appearance.grains_at_end, group), "grains", of_grains);
       if (!cracks.empty())
         keep(cracks_until(snapshot, cracks, in_space), "cracks", of_cracks);
+      if (!events.empty())
+        keep(events_until(snapshot, events, kind, in_space ? 3 : 2), "emission", of_events);
     }
   write_vtk_series(of_grains, folder / (name + "_grains.pvd"));
   if (!of_cracks.empty())
     write_vtk_series(of_cracks, folder / (name + "_cracks.pvd"));
-  write_paraview_script(name, shown_in_paraview(name, !of_cracks.empty()), folder);
+  if (!of_events.empty())
+    write_vtk_series(of_events, folder / (name + "_emission.pvd"));
+  write_paraview_script(name, shown_in_paraview(name, !of_cracks.empty(), !of_events.empty()), folder);
 }
 } // namespace feldspar

@@ -26,6 +26,7 @@ inline constexpr const char* figures = "figures";
 inline constexpr const char* tables = "tables";
 inline constexpr const char* page = "report.html";
 inline constexpr const char* film = "film.webp";
+inline constexpr const char* quakeml = "quakeml";
 } // namespace result_file
 
 /// Writes what a later report needs: summary.json, tests.csv, curves/, cracks.csv, emission.csv, steps.csv of samples, grains/,

@@ -36,6 +36,11 @@ struct EmissionRow
   double energy_magnitude;
 };
 
+inline EmissionRow emission_row(const EmissionEvent& event, const int dimension)
+{
+  return {event, event.n_breaks(), mechanism(event, dimension), energy_magnitude(event.released_energy)};
+}
+
 /// The columns of emission.csv but for the name of the test and the kind.
 inline constexpr Column<EmissionRow> emission_columns[] = {
   column<EmissionRow, &EmissionRow::event, &EmissionEvent::number>("event"),

@@ -1,6 +1,7 @@
 // The files for ParaView, opened by VTK as ParaView opens them.
 
 #include "dem/lab/protocols/protocols.h"
+#include "results/emission.h"
 #include "results/folder/result_folder.h"
 #include "results/sample_fields.h"
 #include "tests/app/run_command.h"
@@ -186,6 +187,45 @@ void expect_cracks(const std::vector<Piece>& series, const TestRecord& record)
     }
 }
 
+/// The events of a test at each time are those that had begun, with the numbers of emission.csv.
+void expect_events(const std::vector<Piece>& series, const TestRecord& record)
+{
+  ASSERT_GE(series.size(), 2u);
+  EXPECT_LT(series.front().n_cells, series.back().n_cells);
+  ASSERT_EQ(series.back().n_cells, record.events.size());
+  for (const Piece& at_time : series)
+    {
+      ASSERT_EQ(at_time.points.size(), 3 * at_time.n_cells);
+      EXPECT_EQ(at_time.n_components.at("moment_tensor_Nm"), 9u);
+      for (std::size_t i = 0; i < at_time.n_cells; ++i)
+        {
+          const EmissionEvent& event = record.events[i];
+          const SourceMechanism source = mechanism(event, record.dimension());
+          const auto& tensor = at_time.arrays.at("moment_tensor_Nm");
+          for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(at_time.points[3 * i + c], event.centroid[c], single * std::abs(event.centroid[c]));
+          constexpr std::size_t place_of[] = {0, 1, 2, 4, 5, 8};
+          for (std::size_t c = 0; c < 6; ++c)
+            EXPECT_NEAR(tensor[9 * i + place_of[c]], event.moment[c], single * std::abs(event.moment[c]));
+          EXPECT_EQ(tensor[9 * i + 1], tensor[9 * i + 3]);
+          const std::map<std::string, double> expected{{"event", double(event.number)},
+                                                       {"step", double(event.step)},
+                                                       {"axial_strain", record.kind.sign * event.axial_strain},
+                                                       {"time_s", event.time},
+                                                       {"n_breaks", double(event.n_breaks())},
+                                                       {"extent_m", event.extent},
+                                                       {"energy_J", event.released_energy},
+                                                       {"moment_Nm", source.scalar_moment},
+                                                       {"magnitude", source.magnitude},
+                                                       {"isotropic_share", source.isotropic},
+                                                       {"clvd_share", source.clvd},
+                                                       {"double_couple_share", source.double_couple}};
+          for (const auto& [name, value] : expected)
+            EXPECT_NEAR(at_time.arrays.at(name)[i], value, 2.0 * single * std::abs(value) + 1e-15) << name;
+        }
+    }
+}
+
 /// The script for ParaView, run with a stand-in for its functions: it opens the series and colours by what they have.
 void expect_script(const fs::path& fields, const std::string& name)
 {
@@ -198,6 +238,7 @@ void expect_script(const fs::path& fields, const std::string& name)
     def __call__(self, *arguments, **named): return Anything()
 def PVDReader(FileName): open(FileName).close(); print("opens", FileName.split("/")[-1]); return Anything()
 def ColorBy(shown, array): print("colours", *array)
+def Calculator(Input, Function, ResultArrayName): print("calculates", Function); return Anything()
 GetActiveViewOrCreate = Glyph = Show = GetAnimationScene = ResetCamera = Render = Anything()
 )");
   const fs::path out = folder.path() / "out";
@@ -206,9 +247,10 @@ GetActiveViewOrCreate = Glyph = Show = GetAnimationScene = ResetCamera = Render 
                           .c_str()),
             0);
   std::ifstream lines(out);
-  EXPECT_EQ(
-    std::string(std::istreambuf_iterator<char>(lines), {}),
-    fmt::format("opens {0}_grains.pvd\ncolours POINTS fragment\nopens {0}_cracks.pvd\ncolours CELLS is_shear\n", name));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(lines), {}),
+            fmt::format("opens {0}_grains.pvd\ncolours POINTS fragment\nopens {0}_cracks.pvd\ncolours CELLS is_shear\n"
+                        "opens {0}_emission.pvd\ncalculates moment_Nm^(1/3)\ncolours POINTS isotropic_share\n",
+                        name));
 }
 
 /// Runs rock.prm. `group`: what its groups of grains are called, if there are any.
@@ -228,6 +270,7 @@ void expect_fields(const TemporaryFolder& folder, const std::size_t least, const
       EXPECT_LE(grains.size(), most);
       expect_grains(grains, test, group);
       expect_cracks(read_time_series(out / "fields" / (test.name + "_cracks.pvd")), test.record);
+      expect_events(read_time_series(out / "fields" / (test.name + "_emission.pvd")), test.record);
       expect_script(out / "fields", test.name);
     }
 }

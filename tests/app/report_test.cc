@@ -752,6 +752,83 @@ TEST_F(Report, RefusesAMeasuredCurveItCannotReadInOneLine)
   refused("\xef\xbb\xbf" + header + "\r\n0,0,0,0\r\n0.1,-0.02,much,0\r\n", "core.csv:3: axial_stress [MPa]: \"much\"");
 }
 
+// Python's reader is another than the one that writes: every event of emission.csv, with what a reader of earthquakes asks for.
+TEST_F(Report, WritesTheAcousticEmissionAsQuakemlWhereItIsAskedFor)
+{
+  EXPECT_FALSE(fs::exists(folder.path() / "out/quakeml"));
+  remade("report out --quakeml '41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z'");
+  folder.write("read.py", R"(import csv, glob, os
+from xml.etree import ElementTree
+bed = {"b": "http://quakeml.org/xmlns/bed/1.2"}
+rows = list(csv.DictReader(open("out/emission.csv")))
+n = 0
+for file in glob.glob("out/quakeml/*.xml"):
+    name = os.path.basename(file)[:-4]
+    root = ElementTree.parse(file).getroot()
+    assert root.tag == "{http://quakeml.org/xmlns/quakeml/1.2}quakeml", root.tag
+    events = root.findall("b:eventParameters/b:event", bed)
+    of_test = [row for row in rows if row["test"] == name]
+    assert len(events) == len(of_test), name
+    for event, row in zip(events, of_test):
+        def number(path): return float(event.find(path, bed).text)
+        assert event.find("b:origin/b:time/b:value", bed).text.startswith("2026-01-01T00:00:0")
+        assert abs(number("b:origin/b:depth/b:value") - 500 + float(row["y_m"])) < 1e-9
+        assert number("b:origin/b:latitude/b:value") == 41
+        moment = "b:focalMechanism/b:momentTensor/"
+        assert abs(number(moment + "b:tensor/b:Mpp/b:value") - float(row["moment_xx_Nm"])) <= 1e-8 * float(row["moment_Nm"])
+        assert abs(number("b:magnitude[b:type='Mw']/b:mag/b:value") - float(row["magnitude"])) < 1e-7
+        n += 1
+print(n)
+)");
+  const Outcome read = run_command(folder.path(), "/usr/bin/python3 -I read.py");
+  EXPECT_EQ(read.exit_code, 0) << read.error;
+  const std::string rows = content(folder.path() / "out/emission.csv");
+  EXPECT_EQ(read.output, fmt::format("{}\n", count(rows, "\n") - 1));
+
+  fs::remove(folder.path() / "out/emission.csv");
+  for (const auto& [arguments, words] :
+       {std::pair("out --quakeml '41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z'",
+                  "--quakeml: no test has events of acoustic emission"),
+        {"out --quakeml '41.0, 97.0, 500 m'", "--quakeml must be latitude, longitude, depth and time"},
+        {"out out --quakeml '41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z'",
+         "--quakeml needs the results of one folder"}})
+    {
+      const auto answer = run_feldspar(folder.path(), fmt::format("report {}", arguments));
+      EXPECT_EQ(answer.exit_code, 2);
+      EXPECT_NE(answer.error.find(words), std::string::npos) << answer.error;
+      EXPECT_EQ(count(answer.error, "\n"), 1u) << answer.error;
+    }
+}
+
+// 400 amplitudes whose number falls by a factor of ten every 20 dB, b = 1: of rank k above 40 dB 20 log10(400/k) more.
+TEST_F(Report, SetsACatalogueOfALaboratoryBesideTheModel)
+{
+  std::string text = "time [s],axial stress [MPa],amplitude [dB]\n";
+  for (int k = 0; k < 400; ++k)
+    text += fmt::format("{},{},{:.4f}\n", k, 0.5 * k, 40.0 + 20.0 * std::log10(400.0 / ((k * 157) % 400 + 0.5)));
+  folder.write("ae.csv", text);
+  const std::string words = remade("report out --catalogue ae.csv --output both");
+  holds(words, {"Acoustic emission of the laboratory and of the model", "magnitudes of ae.csv: amplitude in dB / 20"});
+  // Beside the rows of the model.
+  const std::string table = content(folder.path() / "both/tables/emission.csv");
+  EXPECT_TRUE(table.starts_with("test,deviator,events,breaks an event,largest magnitude,complete from,b,b-positive,"))
+    << table;
+  holds(table, {"\nUniaxial compression,"});
+  const std::string line = table.substr(table.find("ae.csv"));
+  double largest = 0.0, complete = 0.0, b = 0.0;
+  ASSERT_EQ(std::sscanf(line.c_str(), "ae.csv,to the peak,400,–,%lf,%lf,%lf ± ", &largest, &complete, &b), 3) << line;
+  EXPECT_NEAR(largest, 2.0 + std::log10(800.0), 0.01);
+  EXPECT_NEAR(complete, 2.0, 0.01);
+  EXPECT_NEAR(b, 1.0, 0.02);
+
+  folder.write("ae.csv", "time [s],amplitude [V]\n1,2\n");
+  const auto answer = run_feldspar(folder.path(), "report out --catalogue ae.csv --output new");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_NE(answer.error.find("ae.csv:1: \"amplitude [V]\""), std::string::npos) << answer.error;
+  EXPECT_EQ(count(answer.error, "\n"), 1u) << answer.error;
+  EXPECT_FALSE(fs::exists(folder.path() / "new"));
+}
+
 /// Headless Chromium, which the report itself does not need.
 class Browser
 {

@@ -103,7 +103,8 @@ void read_results(const std::string& content, const fs::path& folder)
   const fs::path results = folder / "results";
   for (const char* part : {"curves", "grains", "fields"})
     fs::create_directories(results / part);
-  write_files(content, {"summary.json", "curves/a.csv", "grains/a.csv", "cracks.csv", "emission.csv", "fields/a.xdmf"}, results);
+  write_files(content, {"summary.json", "curves/a.csv", "grains/a.csv", "cracks.csv", "emission.csv", "fields/a.xdmf"},
+              results);
   for (const Series& series : read_result_folder(results, test_kinds()))
     for (const std::string& problem : series.problems)
       if (const std::string objection = objection_to(problem); !objection.empty())
@@ -371,6 +372,7 @@ const std::vector<FuzzedReader>& fuzzed_readers()
        const fs::path file = write(folder / "c.csv", content);
        read_laboratory_curves({{file, CylinderSize{0.05, 0.1}}});
      }},
+    {"catalogue", [](Content content, Folder folder) { read_emission_catalogue(write(folder / "e.csv", content)); }},
     {"path",
      [](Content content, Folder folder) {
        StrainPathParameters path;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "laboratory/kinds.h"
+#include "results/emission.h"
 #include "results/runs/series.h"
 
 #include <filesystem>
@@ -43,4 +44,8 @@ std::vector<MeasuredCurve> measured_curves(const std::vector<std::filesystem::pa
 /// are counted from where the load begins; the problems of the series say what was changed or left out. Throws InputError, one
 /// line with file and line.
 Series read_laboratory_curves(const std::vector<MeasuredCurve>& curves);
+
+/// Reads the acoustic emission that a laboratory has recorded: a table with a row for each event or hit; time, strain or stress, and
+/// magnitude, amplitude or energy, each with its unit: `amplitude [dB]`. Throws InputError, one line with file and line.
+EmissionCatalogue read_emission_catalogue(const std::filesystem::path& file);
 } // namespace feldspar
