@@ -48,6 +48,24 @@ class Commands(unittest.TestCase):
             self.assertEqual((film[:4], film.count(b"ANMF")), (b"RIFF", 38))  # 32 steps, the last of which stands for a while
             self.assertEqual(run.figure().get_ylabel(), "axial stress [MPa]")
 
+    def test_write_the_folders_of_paths_and_samples(self):
+        cell = {"Specimen/Shape": "periodic", "Specimen/Width": "8 mm", "Specimen/Height": "8 mm"}
+        path = {"Strain path/Direction": "free, 1, free", "Strain path/Size": "3e-4", "Strain path/Largest step": "2e-5"}
+        sample = {"Sample/Width": "8 mm", "Sample/Height": "8 mm", "Sample/Elements across": 1, "Sample/Elements along": 1,
+                  "Sample/Tension step": "2e-5", "Tests/List": "direct_tension", "Tests/Stop strain": "3e-4"}
+        for command, function, more in (("rve", feldspar.rve_path, path), ("multiscale", feldspar.multiscale, sample)):
+            with self.subTest(command), tempfile.TemporaryDirectory() as name:
+                folder = Path(name)
+                (folder / "rock.json").write_text(feldspar.Input({**cell, **more}).to_json())
+                subprocess.run(
+                    [os.environ["FELDSPAR_PROGRAM"], command, "rock.json", "--output", "by_command", "--quiet"],
+                    cwd=folder, check=True, capture_output=True,
+                )
+                run = function({**cell, **more}, folder / "by_python", threads=1)
+                (file,) = [str(one.relative_to(run.folder)) for one in run.folder.glob("curves/*.csv")]
+                self.assertTrue(filecmp.cmp(folder / "by_command" / file, run.folder / file, shallow=False))
+                self.assertGreater(len(run.curves.popitem()[1]), 10)
+
     def test_draw_the_charts_of_the_page(self):
         with tempfile.TemporaryDirectory() as name:
             run = feldspar.lab(feldspar.Input(ENTRIES), Path(name) / "run")
