@@ -1,6 +1,7 @@
 """The commands from Python: the same folders to the bit, the same errors."""
 
 import filecmp
+import inspect
 import os
 import shutil
 import subprocess
@@ -119,6 +120,16 @@ class Commands(unittest.TestCase):
 
 class Types(unittest.TestCase):
     """The package is checked as a caller's type checker sees it."""
+
+    def test_explain_themselves(self):
+        """Each public name has a docstring, and so has each public member of a class."""
+        silent = []
+        for name in (*feldspar.__all__, "open"):
+            one = getattr(feldspar, name)
+            members = [member for member in vars(one) if not member.startswith("_")] if isinstance(one, type) else []
+            silent += [name] * (not inspect.getdoc(one))
+            silent += [f"{name}.{member}" for member in members if not inspect.getdoc(getattr(one, member))]
+        self.assertEqual(silent, [])
 
     def test_are_strict(self):
         package = Path(feldspar.__file__).parent
