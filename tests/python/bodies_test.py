@@ -158,6 +158,7 @@ class Tests(unittest.TestCase):
         specimen = feldspar.Specimen(feldspar.Input(ROCK, {"Specimen/Minimum radius": "0.3 mm"}))
         test = specimen.test("uniaxial_compression")
         test.advance()  # a seating cannot be gone on with
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell in the background has ignored
         timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
