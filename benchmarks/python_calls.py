@@ -51,12 +51,15 @@ def from_python():
         # Each outcome that is not built on is kept: as of a solver, a new state is accepted now and then.
         return lambda: volumes.update(strains, 0, tangent)
 
+    test = body.test("uniaxial_compression").run()
+    each = lambda test: test.stress < 0
+
     return {
         "scalar trial": least(20, 2000, lambda: rve.trial(strain).stress),
         "10000 volumes": least(20, 5, batch(False)),
         "10000 volumes with tangents": least(20, 5, batch(True)),
         "test": least(5, 1, lambda: body.test("uniaxial_compression").run()),
-        "test with a callback": least(5, 1, lambda: body.test("uniaxial_compression").run(each=lambda t: t.stress < 0)),
+        f"callback after each of its {test.n_rows} rows": least(20, 500, lambda: each(test)),
     }
 
 

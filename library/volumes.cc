@@ -10,11 +10,12 @@ namespace feldspar::v1
 {
 namespace
 {
-/// All volumes at one moment. Of an intact one its strain says everything.
+/// All volumes at one moment. The state of an intact one follows from its strain.
 template <int dim>
 struct Moment
 {
   std::vector<std::shared_ptr<const NetworkState<dim>>> damaged; ///< null: intact; [n], or none where all are
+  std::vector<double> strains;                                   ///< [n × n_voigt], or none at rest
   std::uint64_t parent = ~std::uint64_t(0);                      ///< token of the state it came of; of rest none
 };
 
@@ -46,7 +47,9 @@ public:
                                    size(), dim, size(), n, size(), n, n, strains.size(), stresses.size(),
                                    tangents.size()));
     const Moment<dim>& from = moment(parent);
-    Moment<dim> outcome{std::vector<std::shared_ptr<const NetworkState<dim>>>(size()), parent};
+    Moment<dim> outcome{std::vector<std::shared_ptr<const NetworkState<dim>>>(size()),
+                        {strains.begin(), strains.end()},
+                        parent};
     std::atomic<std::size_t> first_failure = size();
     constexpr std::size_t at_a_time = 16; // intact volumes need a few hundred nanoseconds each
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, size(), at_a_time), [&](const auto& range) {
@@ -68,6 +71,10 @@ public:
               Cell<dim> cell(networks[assigned[k]], parameters);
               if (before)
                 cell.restore(*before);
+              else if (!from.strains.empty()) // the bits of an equilibrium depend on where the search for it begins
+                cell.restore(answer<dim>(cell, strain_of<dim>(std::span(from.strains).subspan(n * k, n)), Bonds::frozen,
+                                         false, check)
+                               .state);
               auto trial = answer<dim>(cell, strain, bonds, !tangents.empty(), check);
               if (!trial.in_equilibrium)
                 {

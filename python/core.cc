@@ -195,15 +195,21 @@ PYBIND11_MODULE(_core, module)
 
   const auto strain_of = [](const auto& body) { return array_of(body.strain()); };
   const auto stress_of = [](const auto& body) { return array_of(body.stress()); };
-  py::class_<Trial>(module, "Trial")
-    .def_property_readonly("in_equilibrium", &Trial::in_equilibrium)
-    .def_property_readonly("strain", [=](const Trial& trial) { return strain_of(trial); })
-    .def_property_readonly("stress", [=](const Trial& trial) { return stress_of(trial); })
-    .def_property_readonly("n_breaks", &Trial::n_breaks)
-    .def_property_readonly("tangent", [](const Trial& trial) -> py::object {
-      auto values = trial.tangent();
-      return values.empty() ? py::object(py::none()) : matrix_of(std::move(values), trial.strain().size());
-    });
+  py::class_<Trial>(module, "Trial", "The response of a representative volume to a strain.")
+    .def_property_readonly("in_equilibrium", &Trial::in_equilibrium,
+                           "False where none was found: stress and strain are where the search ended.")
+    .def_property_readonly(
+      "strain", [=](const Trial& trial) { return strain_of(trial); }, "Strain, in Voigt's order.")
+    .def_property_readonly(
+      "stress", [=](const Trial& trial) { return stress_of(trial); }, "Mean stress [Pa].")
+    .def_property_readonly("n_breaks", &Trial::n_breaks, "Number of segments that break.")
+    .def_property_readonly(
+      "tangent",
+      [](const Trial& trial) -> py::object {
+        auto values = trial.tangent();
+        return values.empty() ? py::object(py::none()) : matrix_of(std::move(values), trial.strain().size());
+      },
+      "Derivative of the stress by the strain [Pa]; None where it was not asked for.");
 
   py::class_<Rve>(module, "Rve")
     .def(py::init<const Specimen&, const Input&>(), WithoutInterpreter(), py::arg("specimen"), py::arg("input"))

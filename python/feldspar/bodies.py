@@ -42,10 +42,12 @@ class Specimen:
 
     @property
     def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
         return self.core.dimension
 
     @property
     def seed(self) -> int:
+        """Seed of the grains and of the strengths."""
         return self.core.seed
 
     @property
@@ -118,6 +120,7 @@ class Test:
 
     @property
     def core(self) -> _core.Test:
+        """The test in the compiled part."""
         return self._started
 
     def advance(self) -> bool:
@@ -233,6 +236,7 @@ class Press(Test):
 
     @property
     def core(self) -> _core.Test:
+        """The test in the compiled part, from the first stage on."""
         if self._test is None:
             raise _core.Error("the press has not moved yet; give it a first stage, such as strain_to(1e-3)")
         return self._test

@@ -17,6 +17,17 @@ fail()
   exit 1
 }
 if ldd "$here"/prefix/lib/libfeldspar.so | grep -q libmpi; then fail "libfeldspar.so links MPI, of which a program may have its own"; fi
+
+# A program keeps an Eigen of its own, with flags other than the library's: no function of Eigen is shared.
+nm --dynamic --defined-only --demangle "$here/prefix/lib/libfeldspar.so" >"$here/exported"
+if grep Eigen "$here/exported"; then fail "libfeldspar.so exports these functions of Eigen"; fi
+for alignment in 0 64; do
+  c++ -std=c++20 -march=native -DEIGEN_MAX_ALIGN_BYTES=$alignment -I"$here/prefix/include" -isystem /usr/include/eigen3 \
+    "$source_dir/tests/library/own_eigen.cc" -L"$here/prefix/lib" -Wl,-rpath,"$here/prefix/lib" -lfeldspar -o "$here/own_eigen"
+  "$here/own_eigen" >"$here/stiffness_$alignment" || fail "a program with an Eigen of its own does not solve"
+done
+cmp "$here/stiffness_0" "$here/stiffness_64"
+
 "$here/build/uniaxial_compression" >"$here/uniaxial.csv"
 grep -Eq '^# compressive strength [0-9]+\.[0-9]+ MPa$' "$here/uniaxial.csv" || fail "no strength: $(tail -1 "$here/uniaxial.csv")"
 

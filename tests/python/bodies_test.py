@@ -158,6 +158,7 @@ class Tests(unittest.TestCase):
         specimen = feldspar.Specimen(feldspar.Input(ROCK, {"Specimen/Minimum radius": "0.3 mm"}))
         test = specimen.test("uniaxial_compression")
         test.advance()  # a seating cannot be gone on with
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell in the background has ignored
         timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
@@ -325,18 +326,28 @@ class Presses(unittest.TestCase):
 
 class RepresentativeVolumes(unittest.TestCase):
     def test_answer_as_the_path_of_the_command(self):
-        """A path in increments of the command, gone by relax() and accept(): the same stresses."""
+        """The path of a command through breaks and back, gone by relax() and accept() or by tokens: the same bits."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "path.csv"
-            path.write_text("strain_xx,strain_yy,strain_xy\n0,1e-5,0\n")
+            path.write_text("strain_xx,strain_yy,strain_xy\n0,3e-4,0\n1e-4,2e-4,1e-4\n")
             rock = feldspar.Input(CELL, {"Strain path/File": str(path)})
             run = feldspar.rve_path(rock, Path(folder) / "run")
             (curve,) = [pandas.read_csv(one, float_precision="round_trip") for one in run.folder.glob("curves/*.csv")]
         rve = feldspar.Rve(CELL)
-        trial = rve.relax([0.0, 1e-5, 0.0])
-        last = curve.iloc[-1]
-        assert_array_equal(trial.stress, [last[f"stress_{k}_Pa"] for k in ("xx", "yy", "xy")])
-        assert_allclose(trial.stress, rve.stiffness @ [0.0, 1e-5, 0.0], rtol=1e-14)
+        volumes, token = feldspar.Volumes(CELL, 1), 0
+        for _, row in curve.iterrows():
+            strain = [row["strain_xx"], row["strain_yy"], 2 * row["strain_xy"]]
+            stress = [row[f"stress_{k}_Pa"] for k in ("xx", "yy", "xy")]
+            intact = rve.is_intact
+            trial = rve.relax(strain)
+            rve.accept()
+            token, stresses, _ = volumes.update([strain], parent=token)
+            assert_array_equal(trial.stress, stress)
+            assert_array_equal(stresses[0], stress)
+            self.assertEqual(rve.n_broken, row["n_tension_cracks"] + row["n_shear_cracks"])
+            if intact and trial.n_breaks == 0:
+                assert_allclose(trial.stress, rve.stiffness @ strain, rtol=1e-13, atol=1e-6)
+        self.assertGreater(rve.n_broken, 20)
 
     def test_break_first_where_the_closed_form_says(self):
         rve = feldspar.Rve(CELL)

@@ -1,6 +1,7 @@
 """The commands from Python: the same folders to the bit, the same errors."""
 
 import filecmp
+import inspect
 import os
 import shutil
 import subprocess
@@ -47,6 +48,24 @@ class Commands(unittest.TestCase):
             film = page.with_name("film.webp").read_bytes()
             self.assertEqual((film[:4], film.count(b"ANMF")), (b"RIFF", 38))  # 32 steps, the last of which stands for a while
             self.assertEqual(run.figure().get_ylabel(), "axial stress [MPa]")
+
+    def test_write_the_folders_of_paths_and_samples(self):
+        cell = {"Specimen/Shape": "periodic", "Specimen/Width": "8 mm", "Specimen/Height": "8 mm"}
+        path = {"Strain path/Direction": "free, 1, free", "Strain path/Size": "3e-4", "Strain path/Largest step": "2e-5"}
+        sample = {"Sample/Width": "8 mm", "Sample/Height": "8 mm", "Sample/Elements across": 1, "Sample/Elements along": 1,
+                  "Sample/Tension step": "2e-5", "Tests/List": "direct_tension", "Tests/Stop strain": "3e-4"}
+        for command, function, more in (("rve", feldspar.rve_path, path), ("multiscale", feldspar.multiscale, sample)):
+            with self.subTest(command), tempfile.TemporaryDirectory() as name:
+                folder = Path(name)
+                (folder / "rock.json").write_text(feldspar.Input({**cell, **more}).to_json())
+                subprocess.run(
+                    [os.environ["FELDSPAR_PROGRAM"], command, "rock.json", "--output", "by_command", "--quiet"],
+                    cwd=folder, check=True, capture_output=True,
+                )
+                run = function({**cell, **more}, folder / "by_python", threads=1)
+                (file,) = [str(one.relative_to(run.folder)) for one in run.folder.glob("curves/*.csv")]
+                self.assertTrue(filecmp.cmp(folder / "by_command" / file, run.folder / file, shallow=False))
+                self.assertGreater(len(run.curves.popitem()[1]), 10)
 
     def test_draw_the_charts_of_the_page(self):
         with tempfile.TemporaryDirectory() as name:
@@ -101,6 +120,16 @@ class Commands(unittest.TestCase):
 
 class Types(unittest.TestCase):
     """The package is checked as a caller's type checker sees it."""
+
+    def test_explain_themselves(self):
+        """Each public name has a docstring, and so has each public member of a class."""
+        silent = []
+        for name in (*feldspar.__all__, "open"):
+            one = getattr(feldspar, name)
+            members = [member for member in vars(one) if not member.startswith("_")] if isinstance(one, type) else []
+            silent += [name] * (not inspect.getdoc(one))
+            silent += [f"{name}.{member}" for member in members if not inspect.getdoc(getattr(one, member))]
+        self.assertEqual(silent, [])
 
     def test_are_strict(self):
         package = Path(feldspar.__file__).parent

@@ -143,6 +143,38 @@ TEST(Documentation, EveryRoomStandsOnTheCodeMap)
         }
 }
 
+/// Words of a page outside its blocks of code; bars of tables are none.
+std::size_t n_words(const fs::path& page)
+{
+  std::istringstream lines(content(page));
+  std::size_t n = 0;
+  bool code = false;
+  for (std::string line; std::getline(lines, line);)
+    {
+      if (line.starts_with("```"))
+        code = !code;
+      std::istringstream words(code ? "" : line);
+      for (std::string word; words >> word;)
+        if (std::any_of(word.begin(), word.end(),
+                        [](const unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; }))
+          ++n;
+    }
+  return n;
+}
+
+// A reader has time for a page. References, the theory and the report of a finding are read by their headings.
+TEST(Documentation, PagesAreShort)
+{
+  EXPECT_LE(n_words(root / "README.md"), 600u);
+  EXPECT_LE(content(root / "CHANGELOG.md").size(), 15'000u);
+  const std::set<std::string> longer = {"multiscale-and-grains.md", "parameters.md", "results.md", "theory.md"};
+  for (const fs::path& page : documentation_pages(root))
+    if (page.parent_path().filename() == "docs" && !longer.contains(page.filename().string()))
+      {
+        EXPECT_LE(n_words(page), 1500u) << page;
+      }
+}
+
 // `Suite.Test` in docs/reliability.md is a test, and `scripts/...` a script.
 TEST(Documentation, TestsThatPromisesStandOnExist)
 {
