@@ -12,7 +12,7 @@ const onRamp = (share, ramp = ofShare) => {
   return ramp[k].map((value, c) => value + (place - k) * (ramp[k + 1][c] - value));
 };
 const singleGrain = [240, 226, 150];
-// Of an event on the screen [px]: a unit of magnitude is ten times the area, up to the magnitude that is drawn at full size.
+// Radius of an event on the screen [px]: a unit of magnitude is ten times the area, up to the magnitude that is drawn at full size.
 const mostWide = 14;
 const eventRadius = (magnitude, fullSize) => Math.min(mostWide, Math.max(1.5, mostWide * 10 ** ((magnitude - fullSize) / 2)));
 const specimenTones = dark => {
@@ -363,7 +363,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     const size = unit();
     // A point is left out where its middle is: the picture begins and ends one shape beyond the canvas.
     const pixels = canvas.width / width, shape = Math.max(rim, data.size / data.span);
-    const beyond = Math.ceil(Math.max(shape * size, mostWide)) + 4;
+    const beyond = Math.ceil(Math.max(shape * size, set.emission === "hidden" ? 0 : mostWide)) + 4;
     gl.viewport(-beyond * pixels, -beyond * pixels, canvas.width + 2 * beyond * pixels, canvas.height + 2 * beyond * pixels);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
