@@ -55,7 +55,9 @@ const specimensView = (figure, data, chart, tools) => {
     cut: inSpace ? "y" : "whole",
     grains: data.fragments ? "fragment" : tests.some(test => test.grains.tone) ? "mineral grain" : "plain",
     cracks: data.fragments ? "hidden" : "kind",
+    emission: "hidden",
     relative: false,
+    fullSize: Math.max(...tests.map(test => test.events.full_size ?? -Infinity)), // magnitude
   });
   const panes = [];
   const toneOf = (test, k) => test.colour || testTones[k];
@@ -117,6 +119,29 @@ const specimensView = (figure, data, chart, tools) => {
       chip(css(singleGrain), "single grains");
       chip(css(pieceTones[1]), "other fragments, at the end");
     }
+    if (set.emission === "hidden")
+      return;
+    if (set.emission === "strain")
+      bar("events: begin", "end of the test");
+    else
+      ["tensile", "shear", "implosive"].forEach((kind, k) => chip(css(kindTones[k]), `${kind} event`));
+    const entry = element("span", key, {className: "entry"});
+    const samples = [0, 1, 2].map(k => set.fullSize - k);
+    const radii = samples.map(magnitude => eventRadius(magnitude, set.fullSize));
+    const [width, height] = [2 * radii.reduce((sum, radius) => sum + radius + 2, 0), 2 * radii[0] + 2];
+    const pixels = devicePixelRatio || 1;
+    const canvas = element("canvas", entry, {width: width * pixels, height: height * pixels});
+    Object.assign(canvas.style, {width: `${width}px`, height: `${height}px`, verticalAlign: "middle"});
+    const pen = canvas.getContext("2d");
+    pen.scale(pixels, pixels);
+    pen.strokeStyle = theme("--text");
+    radii.reduce((left, radius) => {
+      pen.beginPath();
+      pen.arc(left + radius, height / 2, radius, 0, 2 * Math.PI);
+      pen.stroke();
+      return left + 2 * radius + 4;
+    }, 2);
+    entry.append(` magnitude ${samples.map(one => digits(Number(one.toFixed(1)))).join(", ").replace(",", " or more,")}: ten times the area a unit`);
   };
 
   // All tests to one share of their strains at the peak; at the end of the slider each stands at its own end.
@@ -269,6 +294,8 @@ const specimensView = (figure, data, chart, tools) => {
                     ["fragment", "by fragment"], ["displacement", "by displacement"],
                     ...(panes.every(pane => pane.hasStress) ? [["stress", "by mean stress"]] : []), ["hidden", "hidden"]]);
   choice("cracks", [["kind", "by kind"], ["strain", "by strain"], ["opening", "by opening"], ["tension", "tension alone"], ["shear", "shear alone"], ["hidden", "hidden"]]);
+  if (set.fullSize > -Infinity)
+    choice("emission", [["hidden", "hidden"], ["strain", "by strain"], ["mechanism", "by mechanism"]]);
   figure.buttons([["+", () => panes[0].enlarge(1.25)], ["−", () => panes[0].enlarge(0.8)], ["whole", () => panes[0].whole()],
                   ["curves over the peak", () => {
                     set.relative = !set.relative;
@@ -283,7 +310,8 @@ const specimensView = (figure, data, chart, tools) => {
                       tell("This browser writes no WebP.");
                   }]]);
   const thinned = tests.flatMap(test => [[test.grains.every, "grains"], [test.cracks.every, "cracks"]].flatMap(([every, what]) =>
-    every > 1 ? [`One of ${every} ${what} of ${test.title} is shown.`] : []));
+    every > 1 ? [`One of ${every} ${what} of ${test.title} is shown.`] : []).concat(
+    test.events.left_out ? [`The ${test.events.left_out} smallest events of ${test.title} are not shown.`] : []));
   figure.hint("specimen", (inSpace ? "Drag to turn, with Shift to move" : "Drag to move") +
     "; Ctrl and the wheel enlarge; click a grain or a crack for its numbers. Grains lie where they were when the loading began, cracks where they broke.");
   if (thinned.length)

@@ -1,5 +1,6 @@
 // Shows the grains and cracks of one test by WebGL 2: in the plane polygons and lines, in space spheres and discs. Grains
-// lie where the loading began, so that a crack stands where it broke. Picking draws numbers in place of colours.
+// lie where the loading began, so that a crack stands where it broke. Events of acoustic emission are discs over all others,
+// of a size on the screen that their magnitude alone gives. Picking draws numbers in place of colours.
 // `set` has what the reader chose, for all tests of a figure; `anew` draws all, `tell` takes the words on what was picked.
 "use strict";
 const rgb = text => [1, 3, 5].map(k => parseInt(text.slice(k, k + 2), 16));
@@ -11,12 +12,15 @@ const onRamp = (share, ramp = ofShare) => {
   return ramp[k].map((value, c) => value + (place - k) * (ramp[k + 1][c] - value));
 };
 const singleGrain = [240, 226, 150];
+// Radius of an event on the screen [px]: a unit of magnitude is ten times the area, up to the magnitude that is drawn at full size.
+const mostWide = 14;
+const eventRadius = (magnitude, fullSize) => Math.min(mostWide, Math.max(1.5, mostWide * 10 ** ((magnitude - fullSize) / 2)));
 const specimenTones = dark => {
   const isDark = dark.matches;
   return {
     isDark,
     plain: isDark ? [92, 99, 108] : [206, 209, 213],
-    kindTones: [[213, 94, 0], isDark ? [74, 168, 224] : [0, 114, 178]],
+    kindTones: [[213, 94, 0], isDark ? [74, 168, 224] : [0, 114, 178], [0, 158, 115]], // tension, shear, implosion
     pieceTones: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"].map(rgb),
   };
 };
@@ -49,7 +53,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     layout(location = 0) in vec4 place; // and size, all as shares
     layout(location = 1) in vec4 along; // the normal of a crack, the direction of a flaw
     uniform float extent, pixels;
-    uniform int form; // 0: sphere; 1: disc in space; 2: trace of a crack in the plane; 3: line
+    uniform int form; // 0: sphere; 1: disc in space; 2: trace of a crack in the plane; 3: line; 4: event
     flat out vec3 axis;
     flat out float size, drawn; // radius, or half the length, and the radius of the point [px]
     flat out float thick, nearness;
@@ -59,7 +63,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
       axis = turn * (form == 2 ? vec3(-along.y, along.x, 0.0) : along.xyz);
       if (form == 1)
         axis = normalize(vec3(axis.xy, abs(axis.z) < 0.2 ? 0.2 : axis.z)); // seen along its plane, a disc is still seen
-      size = place.w * extent * pixels * (form == 0 ? 1.0 : form == 1 ? 0.564 : 0.5); // √(1/π)
+      size = place.w * extent * pixels * (form == 0 || form == 4 ? 1.0 : form == 1 ? 0.564 : 0.5); // √(1/π)
       thick = size / pixels * depth;
       drawn = size + (form > 1 ? 2.0 : 0.5);
       gl_PointSize = 2.0 * drawn;
@@ -88,7 +92,10 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     void main() {
       vec2 at = (gl_PointCoord - 0.5) * vec2(2.0, -2.0) * drawn; // [px]
       float height = 0.0, light = 1.0, cover = 1.0;
-      if (form > 1) {
+      if (form == 4) {
+        float within = size - length(at);
+        cover = clamp(0.5 + within, 0.0, 1.0) * (within < 1.0 + 0.06 * size ? 1.0 : 0.45);
+      } else if (form > 1) {
         float length = max(length(axis.xy), 1e-3);
         vec2 line = axis.xy / length;
         vec2 over = abs(vec2(dot(at, line), dot(at, vec2(-line.y, line.x)))) -
@@ -156,8 +163,15 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
                   stress: decoded(data.grains.stress, Int16Array), fragment: decoded(data.grains.fragment, Uint16Array), tone: decoded(data.grains.tone, Uint8Array)};
   const cracks = {place: decoded(data.cracks.place, Uint16Array), normal: decoded(data.cracks.normal, Int8Array),
                   row: decoded(data.cracks.row, Uint16Array), joint: decoded(data.cracks.joint, Uint32Array), open: decoded(data.cracks.open, Uint16Array)};
+  // The largest comes first: smaller ones are drawn over it.
+  const events = {place: decoded(data.events.place, Uint16Array), row: decoded(data.events.row, Uint16Array), kind: decoded(data.events.kind, Uint8Array),
+                  number: decoded(data.events.number, Uint32Array), breaks: decoded(data.events.breaks, Uint32Array),
+                  measures: decoded(data.events.measures, Float32Array)}; // magnitude, extent [mm], energy [mJ]
   const nGrains = grains.fragment.length;
   const nCracks = cracks.row.length;
+  const nEvents = events.row.length;
+  for (let k = 0; k < nEvents; ++k)
+    events.place[4 * k + 3] = (shares * eventRadius(events.measures[3 * k], set.fullSize)) / mostWide;
   const coordinate = (place, k, axis) => data.low[axis] + (data.span * place[4 * k + axis]) / shares; // [mm]
 
   // Flaws as lines of the same form as cracks, in pieces that a point has room for.
@@ -252,6 +266,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
   const drawnGrains = fans ? shapes(fans.corners.length / 3, [fans.corners, 0, 2, gl.FLOAT, 12, 0], [null, 1, 1, gl.FLOAT, 12, 8]) : points(grains.place);
   const drawnCracks = points(cracks.place, cracks.normal);
   const drawnFlaws = points(flaws.place, flaws.along);
+  const drawnEvents = points(events.place);
 
   // Colours.
   const movedBy = k => (Math.hypot(grains.moved[3 * k], grains.moved[3 * k + 1], grains.moved[3 * k + 2]) * data.grains.most_moved) / 32767; // [mm]
@@ -287,6 +302,10 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     opening: k => onRamp(openBy(k) / typicalOpening()),
     tension: k => (isShear(k) ? null : ofKind(k)),
     shear: k => (isShear(k) ? ofKind(k) : null),
+  };
+  const eventColours = {
+    strain: k => onRamp(events.row[k] / (data.rows.length - 1)),
+    mechanism: k => kindTones[events.kind[k]],
   };
   const colourAll = (shape, n, colourOf) => {
     const rows = Math.max(1, Math.ceil(n / columns));
@@ -344,7 +363,7 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     const size = unit();
     // A point is left out where its middle is: the picture begins and ends one shape beyond the canvas.
     const pixels = canvas.width / width, shape = Math.max(rim, data.size / data.span);
-    const beyond = Math.ceil(shape * size) + 4;
+    const beyond = Math.ceil(Math.max(shape * size, set.emission === "hidden" ? 0 : mostWide)) + 4;
     gl.viewport(-beyond * pixels, -beyond * pixels, canvas.width + 2 * beyond * pixels, canvas.height + 2 * beyond * pixels);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -379,6 +398,11 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     // Those at the cut are seen.
     if (set.cracks !== "hidden")
       show(ofPoints, drawnCracks, nBroken(), nGrains, inSpace ? 1 : 2, data.size / data.span, 0.5 * rim);
+    if (set.emission !== "hidden") {
+      gl.disable(gl.DEPTH_TEST);
+      (picking ? gl.disable : gl.enable).call(gl, gl.BLEND);
+      show(ofPoints, drawnEvents, nEvents, nGrains + nCracks, 4, mostWide / size, 0.5 * rim);
+    }
   };
 
   // The picture of numbers, of the whole canvas: 0 where there is nothing.
@@ -446,17 +470,27 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     const short = value => digits(value && Number(value.toPrecision(3)));
     output.textContent = `${short(row[1])} MPa at ${short(row[0])}·10⁻³; broken: ${row[2]} tension, ${row[3]} shear`;
   };
+  const colourEvents = () => {
+    if (set.emission !== "hidden")
+      colourAll(drawnEvents, nEvents, k => (events.row[k] > shown ? null : eventColours[set.emission](k)));
+  };
   const colour = () => {
     if (set.grains !== "hidden")
       colourAll(drawnGrains, nGrains, grainColours[set.grains]);
     if (set.cracks !== "hidden")
       colourAll(drawnCracks, nCracks, crackColours[set.cracks]);
+    colourEvents();
+  };
+  const standAt = row => {
+    shown = row;
+    colourEvents();
+    draw();
   };
 
   const millimetres = (place, k) => `(${(inSpace ? [0, 1, 2] : [0, 1]).map(axis => digits(coordinate(place, k, axis))).join(", ")}) mm`;
   const read = id => {
     chosen = id;
-    const k = id > nGrains ? id - nGrains - 1 : id - 1;
+    const k = id - 1 - (id > nGrains + nCracks ? nGrains + nCracks : id > nGrains ? nGrains : 0);
     if (id === 0)
       tell("");
     else if (id <= nGrains)
@@ -464,6 +498,10 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
         `displacement at the end ${digits(movedBy(k))} mm, ` +
         (grains.stress.length ? `mean stress at the highest load ${digits(stressOf(k))} MPa, ` : "") +
         (grains.fragment[k] ? `fragment ${grains.fragment[k]} of ${sizes.get(grains.fragment[k])} grains.` : "in the largest piece."));
+    else if (id > nGrains + nCracks)
+      tell(`Event ${events.number[k]}, ${["tensile", "shear", "implosive"][events.kind[k]]}, at ${millimetres(events.place, k)}: ` +
+        `magnitude ${digits(events.measures[3 * k])}, ${data.strain} ${digits(data.rows[events.row[k]][0])}, breaks ${events.breaks[k]}, ` +
+        `extent ${digits(events.measures[3 * k + 1])} mm, energy ${digits(events.measures[3 * k + 2])} mJ.`);
     else
       tell(`Crack ${k * data.cracks.every + 1}, ${isShear(k) ? "shear" : "tension"}, of joint ${cracks.joint[k]} at ${millimetres(cracks.place, k)}: ` +
         `size ${digits((cracks.place[4 * k + 3] / shares) * data.size)} mm, ${data.strain} ${digits(data.rows[cracks.row[k]][0])}, opening at the end ${digits(openBy(k))} µm.`);
@@ -567,16 +605,16 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     canvas.dataset.faces = fans.nFaces;
   canvas.dataset.firstFrame = Math.round(performance.now() - begun); // [ms]
   canvas.addEventListener("webglcontextlost", lose);
-  // For tests: how many grains and cracks have a pixel.
+  // For tests: how many grains, cracks and events have a pixel.
   canvas.countSeen = () => {
     const seen = new Set(numbers(0, 0, canvas.width, canvas.height));
     seen.delete(0);
-    const nSeen = [...seen].filter(id => id <= nGrains).length;
-    return [nSeen, seen.size - nSeen];
+    const upTo = last => [...seen].filter(id => id <= last).length;
+    return [upTo(nGrains), upTo(nGrains + nCracks) - upTo(nGrains), seen.size - upTo(nGrains + nCracks)];
   };
-  // For tests: the place of a grain on the canvas, of which the first is 1.
-  canvas.placeOf = id => {
-    const at = [0, 1, 2].map(c => grains.place[4 * (id - 1) + c] / shares - middle[c]);
+  // For tests: the place of a grain on the canvas, of which the first is 1, or of an event.
+  canvas.placeOf = (id, isEvent) => {
+    const at = [0, 1, 2].map(c => (isEvent ? events : grains).place[4 * (id - 1) + c] / shares - middle[c]);
     const [x, y] = turned().map(axis => axis.reduce((sum, value, c) => sum + value * at[c], 0) * unit());
     return [canvas.clientWidth / 2 + set.pan[0] + x, canvas.clientHeight / 2 - set.pan[1] - y];
   };
@@ -586,16 +624,13 @@ const specimenView = (parent, data, set, {tone, anew, tell, alternative, lose}, 
     hasMinerals: grains.tone.length > 0,
     // Shows the last row up to a share of the strain at the peak. Returns the row.
     go(share) {
-      shown = 0;
-      while (shown + 1 < course.length && course[shown + 1] <= share + 1e-9)
-        ++shown;
-      draw();
-      return data.rows[shown];
+      let row = 0;
+      while (row + 1 < course.length && course[row + 1] <= share + 1e-9)
+        ++row;
+      standAt(row);
+      return data.rows[row];
     },
-    showRow(row) {
-      shown = Math.min(row, data.rows.length - 1);
-      draw();
-    },
+    showRow: row => standAt(Math.min(row, data.rows.length - 1)),
     end() {
       watch.disconnect();
       canvas.removeEventListener("webglcontextlost", lose);

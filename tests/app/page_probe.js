@@ -107,6 +107,34 @@ addEventListener("load", async () => {
       picture.dispatchEvent(new PointerEvent(kind, {clientX: frame_of_picture.left + spot[0], clientY: frame_of_picture.top + spot[1], pointerId: 1, bubbles: true}));
     const x = data.low[0] + (data.span * place[4 * 6]) / 65535;
     claim("pick", reading.textContent.startsWith(`Grain 7 at (${Number(x.toPrecision(4))},`));
+    // Events, of the test that has the most: those that began up to where the slider stands.
+    const rowsOf = test => new Uint16Array(Uint8Array.from(atob(test.events.row), one => one.charCodeAt(0)).buffer);
+    const most = tests.reduce((best, test, k) => (rowsOf(test).length > rowsOf(tests[best]).length ? k : best), 0);
+    const [pane, events, rows] = [pictures[most], tests[most].events, rowsOf(tests[most])];
+    const isSeen = n => n > 5 && pane.countSeen()[2] <= n && pane.countSeen()[2] >= 0.9 * n;
+    choose("emission", "hidden");
+    const without = pane.toDataURL();
+    choose("emission", "mechanism");
+    claim("events at the end", pane.toDataURL() !== without && isSeen(rows.length));
+    const nBegun = () => {
+      const [mark] = curves.data.datasets[tests.length + most].data;
+      const last = tests[most].rows.findLastIndex(row => row[0] === mark.x && row[1] === mark.y);
+      return rows.filter(row => row <= last).length;
+    };
+    for (slider.value = 1000; nBegun() > 0.7 * rows.length; slider.dispatchEvent(new Event("input")))
+      slider.value -= 20;
+    claim("events half way", isSeen(nBegun()));
+    slider.value = 1000;
+    slider.dispatchEvent(new Event("input"));
+    const [across, down] = pane.placeOf(rows.length, true); // the smallest lies over the others
+    const {left: from, top: above} = pane.getBoundingClientRect();
+    for (const kind of ["pointerdown", "pointerup"])
+      pane.dispatchEvent(new PointerEvent(kind, {clientX: from + across, clientY: above + down, pointerId: 1, bubbles: true}));
+    const numbers = new Uint32Array(Uint8Array.from(atob(events.number), one => one.charCodeAt(0)).buffer);
+    claim("event picked", reading.textContent.startsWith(`Event ${numbers.at(-1)}, `) && /magnitude .* breaks .* extent .* energy/.test(reading.textContent));
+    choose("emission", "strain");
+    choose("emission", "hidden");
+    claim("emission hidden", pane.toDataURL() === without && pane.countSeen()[2] === 0);
     for (let k = 0; k < 9; ++k)
       picture.dispatchEvent(new KeyboardEvent("keydown", {key: "+"}));
     claim("enlarge", picture.countSeen()[0] < all[0]);

@@ -933,9 +933,11 @@ TEST_F(Report, AnswersToTheMouse)
     Browser::show(folder.path() / "probed.html", "--window-size=1280,900 --virtual-time-budget=15000 --dump-dom");
   const std::string title = title_of(shown);
   const std::size_t faces = title.find(" faces ");
-  EXPECT_EQ(title.substr(0, faces),
-            "probed +hover +zoom +whole range +hide +show +as printed +interactive again +4 tests side by side +grains "
-            "+cracks +filled +marks at the end +slider +marks at the beginning +filter +stress +pick +enlarge +whole");
+  EXPECT_EQ(
+    title.substr(0, faces),
+    "probed +hover +zoom +whole range +hide +show +as printed +interactive again +4 tests side by side +grains "
+    "+cracks +filled +marks at the end +slider +marks at the beginning +filter +stress +pick +events at the end "
+    "+events half way +event picked +emission hidden +enlarge +whole");
   // Polygons of grains have a face where there is a joint; the load has moved a few pairs across the installation gap.
   const auto summary = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
   const auto n_joints = summary["tests"][0]["n_joints"].get<double>();

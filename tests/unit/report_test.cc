@@ -39,6 +39,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -1821,6 +1822,49 @@ TEST(SpecimenData, MeasuresTheOpeningOfACrackByItsTwoGrains)
   EXPECT_EQ(open[3], 0u);
 }
 
+TEST(SpecimenData, HasTheLargestEventsOfEmission)
+{
+  // In the plane a shear source of ± M has the moment M, one of M along an axis M/√2: a unit of magnitude is a factor 10^1.5.
+  const double least = std::pow(10.0, 1.5 * (6.07 - 6.0)); // of magnitude -6 [N m]
+  FinishedTest test = compression(1);
+  EmissionEvent shear, tensile, silent;
+  shear.moment = {least, 0.0, 0.0, -least, 0.0, 0.0};
+  tensile.moment = {std::sqrt(2.0) * std::pow(10.0, 1.5) * least, 0.0, 0.0, 0.0, 0.0, 0.0};
+  std::uint64_t number = 0;
+  for (EmissionEvent* one : {&shear, &silent, &tensile})
+    {
+      one->number = ++number;
+      one->step = 100 * number;
+      one->centroid = {0.02, 0.03, 0.0};
+      one->n_tension = 2;
+      one->n_shear = number;
+      one->extent = 0.004;
+      one->released_energy = 2e-6;
+      test.record.events.push_back(*one);
+    }
+  auto events = data_of(test)["events"];
+  EXPECT_EQ(events["left_out"], 0);
+  EXPECT_EQ(events["full_size"], -5.0);
+  EXPECT_EQ(numbers_in(events["number"], 4), (std::vector{3u, 1u})); // the one without a moment has no size
+  EXPECT_EQ(numbers_in(events["kind"], 1), (std::vector{0u, 1u}));
+  EXPECT_EQ(numbers_in(events["row"], 2), (std::vector{30u, 10u}));
+  EXPECT_EQ(numbers_in(events["breaks"], 4), (std::vector{5u, 3u}));
+  const auto measures = numbers_in(events["measures"], 4);
+  const std::vector<float> expected{-5.0F, 4.0F, 0.002F, -6.0F, 4.0F, 0.002F}; // magnitude, mm, mJ
+  ASSERT_EQ(measures.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_FLOAT_EQ(std::bit_cast<float>(measures[k]), expected[k]) << k;
+
+  test.record.events.assign(30'000, shear);
+  test.record.events.push_back(tensile);
+  events = data_of(test)["events"];
+  EXPECT_EQ(events["left_out"], 10'001);
+  EXPECT_EQ(numbers_in(events["number"], 4)[0], 3u);
+  EXPECT_EQ(events["full_size"], -5.0); // a unit above the hundredth part
+  test.record.events.back().moment[0] *= 1e3;
+  EXPECT_EQ(data_of(test)["events"]["full_size"], -5.0);
+}
+
 TEST(SpecimenData, OfManyGrainsKeepsSomeSoThatAPageStaysSmall)
 {
   FinishedTest test = compression(1);
@@ -1837,6 +1881,9 @@ TEST(SpecimenData, OfManyGrainsKeepsSomeSoThatAPageStaysSmall)
 
   // Four tests share the room of one, so that the page has at most 10 MB.
   test.record.cracks.resize(300'000, test.record.cracks.front());
+  EmissionEvent event;
+  event.moment[0] = 1.0;
+  test.record.events.assign(100'000, event);
   for (GrainPicture& one : grains)
     one.mean_stress = 1e6;
   const std::string four = specimen_data({{&test, "a"}, {&test, "b"}, {&test, "c"}, {&test, "d"}});

@@ -5,14 +5,17 @@
 #include "report/pictures/maps/group_colour.h"
 #include "report/pictures/maps/map.h"
 #include "report/pictures/maps/parted_grains.h"
+#include "results/emission.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -24,6 +27,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t most_rows = 300;
 constexpr std::size_t most_grains = 200'000; ///< of all tests: 5 to 6 MB
 constexpr std::size_t most_cracks = 100'000; ///< of all tests: some 2 MB
+constexpr std::size_t most_events = 20'000;  ///< of all tests: some 0.8 MB
 
 /// Whole numbers of a few bytes each, the lowest byte first, as the script reads them.
 class Bytes
@@ -43,6 +47,8 @@ public:
   {
     add(std::lround(std::clamp(share, -1.0, 1.0) * (n_bytes == 1 ? 127.0 : 32767.0)), n_bytes);
   }
+
+  void add_float(const double value) { add(std::bit_cast<std::uint32_t>(float(value)), 4); }
 
   std::string text() const { return live::base64(bytes); }
 
@@ -163,6 +169,40 @@ Json crack_data(const std::vector<Crack>& cracks, const std::vector<GrainPicture
           {"open", openings.text()}};
 }
 
+/// The events of the largest magnitudes, the largest first. The full size begins a unit above the magnitude that one event in a
+/// hundred exceeds: the collapse of a body may be an event much larger than all before.
+Json event_data(const TestRecord& record, const std::vector<const CurveSample*>& rows, const Cube& cube,
+                const std::size_t most)
+{
+  std::vector<std::pair<SourceMechanism, const EmissionEvent*>> events;
+  for (const EmissionEvent& event : record.events)
+    if (const auto source = mechanism(event, record.dimension()); std::isfinite(source.magnitude))
+      events.emplace_back(source, &event);
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& one, const auto& other) { return one.first.magnitude > other.first.magnitude; });
+  const std::size_t left_out = events.size() - std::min(events.size(), most);
+  events.resize(events.size() - left_out);
+  const double full_size =
+    events.empty() ? std::numeric_limits<double>::quiet_NaN()
+                   : std::min(events.front().first.magnitude, events[events.size() / 100].first.magnitude + 1.0);
+  Bytes places, of_rows, kinds, numbers, breaks, measures;
+  for (const auto& [source, event] : events)
+    {
+      cube.add_place(places, event->centroid);
+      places.add_share(0.0); // the script's size
+      of_rows.add(std::int64_t(row_of(event->step, rows)), 2);
+      kinds.add(source.kind == "tensile" ? 0 : source.kind == "shear" ? 1 : 2, 1);
+      numbers.add(std::int64_t(event->number), 4);
+      breaks.add(std::int64_t(event->n_breaks()), 4);
+      for (const double measure : {source.magnitude, event->extent / milli, event->released_energy / milli})
+        measures.add_float(measure);
+    }
+  return {{"left_out", left_out},    {"full_size", live::number(full_size)},
+          {"place", places.text()},  {"row", of_rows.text()},
+          {"kind", kinds.text()},    {"number", numbers.text()},
+          {"breaks", breaks.text()}, {"measures", measures.text()}};
+}
+
 Json flaw_data(const std::vector<FlawPicture>& flaws)
 {
   Json all = Json::array();
@@ -231,7 +271,8 @@ Json data_of(const TitledTest& one, const std::size_t n)
     {"stages", stages},
     {"grains", grain_data(grains, most_grains / n, cube, radius)},
     {"flaws", flaw_data(test.appearance.flaws)},
-    {"cracks", crack_data(cracks, grains, kept, cube, most_cracks / n, size)}};
+    {"cracks", crack_data(cracks, grains, kept, cube, most_cracks / n, size)},
+    {"events", event_data(record, kept, cube, most_events / n)}};
 }
 } // namespace
 

@@ -26,9 +26,9 @@ enum class ShownOnPaper
   fragments
 };
 
-/// Grains and cracks of tests with their curves, for the viewer of the page (report/page/specimens.js): JSON with arrays in
+/// Grains, cracks and events of tests with their curves, for the viewer of the page (report/page/specimens.js): JSON with arrays in
 /// base64. Grains lie where they were when the loading began, so that a crack stands where it broke. Of more than 200 000
-/// grains, or 100 000 cracks, of all tests every second or third is kept. Tests without grains or a curve are left out;
-/// empty without any other.
+/// grains, or 100 000 cracks, of all tests every second or third is kept, of more than 20 000 events the largest. Tests without
+/// grains or a curve are left out; empty without any other.
 std::string specimen_data(const std::vector<TitledTest>& tests, ShownOnPaper on_paper = ShownOnPaper::cracks);
 } // namespace feldspar
