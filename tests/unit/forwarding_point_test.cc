@@ -51,7 +51,7 @@ public:
   std::vector<PointCrack<dim>> cracks_of_last_step() const override
   {
     note("cracks_of_last_step");
-    PointCrack<dim> crack{true, 7, {}, 0.5, 0.25};
+    PointCrack<dim> crack{true, 7, {}, 0.5, 0.25, 0.125};
     for (int c = 0; c < dim; ++c)
       crack.normal[c] = c + 1.0;
     return {crack};
@@ -99,6 +99,7 @@ void call_everything(MaterialPoint<dim>& point)
   EXPECT_EQ(cracks[0].segment, 7u);
   EXPECT_EQ(cracks[0].size, 0.5);
   EXPECT_EQ(cracks[0].released_energy, 0.25);
+  EXPECT_EQ(cracks[0].released_density, 0.125);
   EXPECT_TRUE(point.is_damaged());
   EXPECT_EQ(std::any_cast<std::string>(point.structure()), "grains");
 }
