@@ -49,8 +49,8 @@ SourceMechanism mechanism(const EmissionEvent& event, const int dimension)
   return result;
 }
 
-std::vector<EmissionEvent> events_between(const TestRecord& record, const std::optional<double>& strain_at_peak,
-                                          const double from, const double to)
+std::vector<EmissionEvent> events_up_to_peak(const TestRecord& record, const std::optional<double>& strain_at_peak,
+                                             const double from, const double to)
 {
   std::vector<EmissionEvent> found;
   const auto& curve = record.curve;

@@ -3,6 +3,7 @@
 #include "laboratory/record.h"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,10 +54,11 @@ struct MagnitudeFrequency
   std::size_t n;     ///< events that count
 };
 
-/// The events of a test before its peak, while the highest deviator so far lies between two shares of that at the peak; none
-/// where there is no peak. `strain_at_peak`: positive in the sense of the test.
-std::vector<EmissionEvent> events_between(const TestRecord& record, const std::optional<double>& strain_at_peak,
-                                          double from, double to);
+/// The events of a test before its peak, or those of them while the highest deviator so far lies between two shares of that at the
+/// peak; none where there is no peak. `strain_at_peak`: positive in the sense of the test.
+std::vector<EmissionEvent> events_up_to_peak(const TestRecord& record, const std::optional<double>& strain_at_peak,
+                                             double from = -std::numeric_limits<double>::infinity(),
+                                             double to = std::numeric_limits<double>::infinity());
 
 /// The fall for magnitudes in the order of the events, those of several tests parted by NaN; none with fewer than 30 that count.
 /// `step`: between magnitudes that are multiples of one, as of amplitudes in whole decibels; a magnitude stands for those within

@@ -49,7 +49,7 @@ Table emission_table(const Series& series, const std::vector<EmissionCatalogue>&
           {
             magnitudes.push_back(std::numeric_limits<double>::quiet_NaN());
             for (const EmissionEvent& event :
-                 events_between(test->record, test->results.strain_at_peak.value, shares[w], shares[w + 1]))
+                 events_up_to_peak(test->record, test->results.strain_at_peak.value, shares[w], shares[w + 1]))
               {
                 const SourceMechanism source = mechanism(event, test->record.dimension());
                 ++n_events;

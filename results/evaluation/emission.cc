@@ -1,29 +1,26 @@
 #include "results/emission.h"
 #include "results/evaluation/rising_branch.h"
 
-#include <limits>
-
 /// The acoustic emission of a test up to its peak.
 namespace feldspar
 {
 namespace
 {
-std::vector<EmissionEvent> events_up_to_peak(const RisingBranch& branch)
+std::vector<EmissionEvent> events_of(const RisingBranch& branch)
 {
-  constexpr double any = std::numeric_limits<double>::infinity();
-  return events_between(branch.record, branch.strain(branch.at_peak()), -any, any);
+  return events_up_to_peak(branch.record, branch.strain(branch.at_peak()));
 }
 
 Figure of_frequency(const RisingBranch& branch, double MagnitudeFrequency::*const part)
 {
-  const auto frequency = magnitude_frequency(magnitudes_of(events_up_to_peak(branch), branch.record.dimension()));
+  const auto frequency = magnitude_frequency(magnitudes_of(events_of(branch), branch.record.dimension()));
   return frequency ? known((*frequency).*part) : unknown("fewer than 30 events above the magnitude of completeness");
 }
 } // namespace
 
 namespace evaluation
 {
-Figure n_events_at_peak(const RisingBranch& branch) { return known(double(events_up_to_peak(branch).size())); }
+Figure n_events_at_peak(const RisingBranch& branch) { return known(double(events_of(branch).size())); }
 
 Figure b_value(const RisingBranch& branch) { return of_frequency(branch, &MagnitudeFrequency::b); }
 

@@ -159,7 +159,8 @@ void write_quakeml(const std::vector<Series>& all, const QuakemlOrigin& origin, 
         if (events.empty())
           continue;
         if (std::any_of(events.begin(), events.end(), [](const auto& one) { return !(std::abs(one.time) < longest); }))
-          throw InputError(fmt::format("--quakeml: an event of {} has a time of more than {:g} s", test.name, longest));
+          throw InputError(
+            fmt::format("--quakeml: an event of {} has no time up to {:g} s; samples have none", test.name, longest));
         pugi::xml_document document;
         pugi::xml_node root = document.append_child("q:quakeml");
         root.append_attribute("xmlns:q") = "http://quakeml.org/xmlns/quakeml/1.2";

@@ -80,7 +80,9 @@ END
    {R"(feldspar lab examples/first-run/granite.prm --output granite
 cp -r granite slate
 cp examples/beishan-granite/reference.json rock.json
-sed -n '/^```text core.csv/,/^```$/p' docs/laboratory-data.md | grep -v '^```' > core.csv
+for table in core.csv ae.csv; do
+  sed -n "/^\`\`\`text $table/,/^\`\`\`$/p" docs/laboratory-data.md | grep -v '^```' > $table
+done
 )",
     settings_of_a_small_rock}},
   {"examples/contact-models/README.md",

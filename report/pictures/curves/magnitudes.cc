@@ -21,8 +21,6 @@ using namespace plot;
 
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Magnitudes of the events up to the peak in their order, test after test.
 std::vector<double> magnitudes_to_peak(const TestGroup& group)
 {
@@ -30,9 +28,8 @@ std::vector<double> magnitudes_to_peak(const TestGroup& group)
   for (const auto* test : group.tests)
     {
       magnitudes.push_back(std::numeric_limits<double>::quiet_NaN());
-      append(magnitudes,
-             magnitudes_of(events_between(test->record, test->results.strain_at_peak.value, -infinity, infinity),
-                           test->record.dimension()));
+      append(magnitudes, magnitudes_of(events_up_to_peak(test->record, test->results.strain_at_peak.value),
+                                       test->record.dimension()));
     }
   return magnitudes;
 }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -28,13 +27,11 @@ struct Source
 /// The events of all tests of a series up to their peaks, the largest first.
 std::vector<Source> sources_of(const SeriesGroup& of)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Source> sources;
   for (const auto* test : of.group.tests)
     {
       const int dimension = test->record.dimension();
-      for (const EmissionEvent& event :
-           events_between(test->record, test->results.strain_at_peak.value, -infinity, infinity))
+      for (const EmissionEvent& event : events_up_to_peak(test->record, test->results.strain_at_peak.value))
         if (const SourceMechanism source = mechanism(event, dimension); !source.kind.empty())
           sources.push_back({source.scalar_moment, source.kind, hudson_place(event, dimension)});
     }
