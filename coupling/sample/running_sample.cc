@@ -185,7 +185,8 @@ void SampleTest::Parts::note_step(const fem::NewtonReport& report)
 void SampleTest::Parts::gather_cracks()
 {
   ++bookkeeping.steps;
-  auto [broken, events] = body->breaks_of_last_step();
+  PointBreaks breaks = body->breaks_of_last_step();
+  std::vector<Crack>& broken = breaks.cracks;
   const auto n_of = [&](const CrackKind kind) {
     const auto is = [=](const Crack& crack) { return crack.kind == kind; };
     return ranks::sum(std::uint64_t(std::count_if(broken.begin(), broken.end(), is)));
@@ -199,10 +200,10 @@ void SampleTest::Parts::gather_cracks()
                      [=](const Row& one, const Row& other) { return one.*number < other.*number; });
   };
   gather(broken, &Crack::joint);
-  gather(events, &EmissionEvent::number);
+  gather(breaks.events, &EmissionEvent::number);
   const double strain = seated ? axial_strain() : 0.0;
   std::map<std::uint64_t, std::uint64_t> event_of_point;
-  for (EmissionEvent& event : events)
+  for (EmissionEvent& event : breaks.events)
     {
       const std::uint64_t number = record.events.size() + 1;
       event_of_point[std::exchange(event.number, number)] = number;
