@@ -2,7 +2,6 @@
 
 #include "laboratory/record.h"
 
-#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -65,13 +64,10 @@ std::vector<EmissionEvent> events_up_to_peak(const TestRecord& record, const std
 /// half a step of it.
 std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>& magnitudes, double step = 0.0);
 
-/// An event or a hit that a laboratory has recorded; NaN where its file has no such column.
+/// An event or a hit that a laboratory has recorded.
 struct RecordedEmission
 {
-  double time;                 ///< [s]
-  double axial_strain;         ///< as the file has it
-  double stress;               ///< axial or deviator, as the file has it [Pa]
-  std::array<double, 3> place; ///< [m]
+  double stress;    ///< axial or deviator, as the file has it; NaN where it has none [Pa]
   double magnitude; ///< of an amplitude A/20, A in dB; of an energy as energy_magnitude(); NaN without energy
 };
 

@@ -87,7 +87,7 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
             return failed(fmt::format("more than {} events", parameters.most_events));
           if (report.n_cascades >= parameters.most_cascades)
             return failed(fmt::format("still unstable after {} cascades", report.n_cascades));
-          const auto responses_before = tried.responses;
+          const auto responses_before = std::exchange(tried.responses, {});
           if (!update_points())
             return failed("a material point has no response to its strain");
           for (std::size_t i = 0; i < responses_before.size(); ++i)

@@ -46,6 +46,14 @@ Figure stress_before_growth(const RisingBranch& branch, const std::size_t last, 
   return at == 0 ? unknown(never) : known(branch.stress(branch.rows[at]));
 }
 
+/// The same up to the crack damage stress.
+template <typename Value>
+Figure initiation_before_damage(const RisingBranch& branch, const Value& value, const char* const never)
+{
+  const auto damage = most_contracted_row(branch);
+  return damage ? stress_before_growth(branch, *damage, value, never) : unknown("needs the crack damage stress");
+}
+
 /// Number of cracks on grain boundaries, in a grain-based model.
 double n_smooth_cracks(const RisingBranch& branch, const CrackKind kind)
 {
@@ -83,21 +91,16 @@ Figure crack_initiation_stress(const RisingBranch& branch)
 /// Lateral strain response: the stress at which the lateral expansion begins to grow faster. Needs no crack to be counted.
 Figure crack_initiation_stress_lateral(const RisingBranch& branch)
 {
-  const auto damage = most_contracted_row(branch);
-  return damage ? stress_before_growth(
-                    branch, *damage, [](const CurveSample& row) { return row.gauge_lateral_strain; },
-                    "lateral strain never lags behind a straight line")
-                : unknown("needs the crack damage stress");
+  return initiation_before_damage(
+    branch, [](const CurveSample& row) { return row.gauge_lateral_strain; },
+    "lateral strain never lags behind a straight line");
 }
 
 /// The same by the hits of acoustic emission (the cumulative hits of Zhao et al. 2015).
 Figure crack_initiation_stress_emission(const RisingBranch& branch)
 {
-  const auto damage = most_contracted_row(branch);
-  return damage ? stress_before_growth(
-                    branch, *damage, [](const CurveSample& row) { return double(n_cracks(row)); },
-                    "cracks never lag behind a straight line")
-                : unknown("needs the crack damage stress");
+  return initiation_before_damage(
+    branch, [](const CurveSample& row) { return double(n_cracks(row)); }, "cracks never lag behind a straight line");
 }
 
 /// The same up to the peak by the energy that the hits released.

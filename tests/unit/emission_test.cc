@@ -458,8 +458,7 @@ TEST(Emission, BValuesOfWholeDecibelsAreThoseOfTheDistribution)
   for (int k = 0; k < 10000; ++k)
     {
       const double amplitude = std::round((2.0 - 0.5 * step - std::log10(random.uniform(1e-9, 1.0)) / 1.2) / step);
-      catalogue.events.push_back(
-        {.time = double(k), .axial_strain = 0.0, .stress = double(k), .place = {}, .magnitude = amplitude / 20.0});
+      catalogue.events.push_back({.stress = double(k), .magnitude = amplitude / 20.0});
     }
   EXPECT_NEAR(catalogue.step(), step, 1e-9);
   const auto magnitudes = catalogue.magnitudes_to_peak();

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -32,15 +31,11 @@ EmissionCatalogue read_emission_catalogue(const std::filesystem::path& file)
   const auto refusal = [&](const std::size_t line, const std::string& what) {
     return InputError(fmt::format("{}:{}: {}", file.string(), line, what));
   };
-  const Column time = find({"time_s"}), strain = find({"axial_strain", "strain"}),
-               stress = find({"deviator_stress_Pa", "axial_stress_Pa", "stress_Pa"});
+  const Column time = find({"time_s"}), stress = find({"deviator_stress_Pa", "axial_stress_Pa", "stress_Pa"});
   const Column magnitude = find({"magnitude"}), amplitude = find({"amplitude_dB"}), energy = find({"energy_J"});
-  const std::array<Column, 3> place{find({"x_m"}), find({"y_m"}), find({"z_m"})};
-  for (const auto& [is_there, names] : {std::pair(time || strain || stress, "time, axial_strain or axial_stress"),
-                                        std::pair(magnitude || amplitude || energy, "amplitude, energy or magnitude")})
-    if (!is_there)
-      throw refusal(table.line_of_header(),
-                    fmt::format("there is no column {}; the header must be as in \"time [s],amplitude [dB]\"", names));
+  if (!magnitude && !amplitude && !energy)
+    throw refusal(table.line_of_header(), "there is no column amplitude, energy or magnitude; the header must be as in "
+                                          "\"time [s],amplitude [dB]\"");
 
   EmissionCatalogue catalogue{excerpt(file.filename().string()),
                               magnitude   ? "as the file has them"
@@ -50,13 +45,10 @@ EmissionCatalogue read_emission_catalogue(const std::filesystem::path& file)
   const auto value = [&](const Column column) {
     return column ? table.number(*column) : std::numeric_limits<double>::quiet_NaN();
   };
+  double last_time = -std::numeric_limits<double>::infinity();
   while (table.next())
     {
-      RecordedEmission event{value(time),
-                             value(strain),
-                             value(stress),
-                             {value(place[0]), value(place[1]), value(place[2])},
-                             0.0};
+      RecordedEmission event{value(stress), 0.0};
       if (energy && value(energy) < 0.0)
         throw refusal(table.line_of_row(), fmt::format("energy is {}; it must not be negative", table.text(*energy)));
       event.magnitude = magnitude   ? table.number_or_nan(*magnitude)
@@ -65,9 +57,10 @@ EmissionCatalogue read_emission_catalogue(const std::filesystem::path& file)
       if (std::abs(event.magnitude) > largest)
         throw refusal(table.line_of_row(), fmt::format("the magnitude ({}) is {:g}; it must lie between -{:g} and {:g}",
                                                        catalogue.scale, event.magnitude, largest, largest));
-      if (!catalogue.events.empty() && event.time < catalogue.events.back().time)
+      if (value(time) < last_time)
         throw refusal(table.line_of_row(), fmt::format("time is {:g} s after {:g} s; rows must be in the order of time",
-                                                       event.time, catalogue.events.back().time));
+                                                       value(time), last_time));
+      last_time = value(time);
       catalogue.events.push_back(event);
     }
   if (catalogue.events.empty())

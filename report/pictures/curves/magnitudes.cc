@@ -38,13 +38,14 @@ std::vector<double> magnitudes_to_peak(const TestGroup& group)
 void add_counts(Chart& chart, std::vector<double> magnitudes, const std::optional<MagnitudeFrequency>& frequency,
                 const double zero, const std::string& beginning, const std::string& colour)
 {
+  constexpr double finest = 0.01; // magnitudes that a figure tells apart
   std::erase_if(magnitudes, [](const double one) { return !std::isfinite(one); });
   if (magnitudes.empty())
     return;
   std::sort(magnitudes.begin(), magnitudes.end(), std::greater<>());
   ChartSeries counts{.label = fmt::format("{}{} events", beginning, magnitudes.size()), .colour = colour};
   for (std::size_t k = 0; k < magnitudes.size(); ++k)
-    if (k + 1 == magnitudes.size() || magnitudes[k + 1] < magnitudes[k])
+    if (k + 1 == magnitudes.size() || std::floor(magnitudes[k + 1] / finest) < std::floor(magnitudes[k] / finest))
       counts.points.push_back({magnitudes[k] - zero, double(k + 1)});
   if (frequency)
     {
