@@ -1,6 +1,7 @@
 #include "results/sample_fields.h"
 
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "base/readable_file.h"
 #include "base/system/hdf5_archive.h"
 #include "base/text.h"
@@ -18,9 +19,14 @@ namespace
 {
 std::string expected() { return fmt::format("a field of `{}`", input_entries::multiscale); }
 
+InputError objection_to(const std::filesystem::path& index, const std::string_view what)
+{
+  return InputError(fmt::format("{}: {}", index.string(), what));
+}
+
 InputError objection_to_content(const std::filesystem::path& index)
 {
-  return InputError(fmt::format("{}: not XDMF of `{}`, or cut short", index.string(), input_entries::multiscale));
+  return objection_to(index, fmt::format("not XDMF of `{}`, or cut short", input_entries::multiscale));
 }
 
 /// "FILE:/ARRAY" of a <DataItem>.
@@ -30,17 +36,19 @@ struct Place
   std::string array;
 };
 
-Place place_of(const pugi::xml_node& parent)
+Place place_of(const pugi::xml_node& parent, const std::filesystem::path& index)
 {
   std::string text = parent.child_value("DataItem");
   text.erase(std::remove_if(text.begin(), text.end(), [](const char c) { return c == ' ' || c == '\n' || c == '\t'; }),
              text.end());
   const std::size_t colon = text.find(":/");
   if (colon == std::string::npos)
-    throw InputError("a DataItem names no array of a file");
-  if (text.find('/') < colon)
-    throw InputError("a DataItem names a file of another folder");
-  return {text.substr(0, colon), text.substr(colon + 2)};
+    throw objection_to(index, "a DataItem names no array of a file");
+  Place place{text.substr(0, colon), text.substr(colon + 2)};
+  if (!is_plain_name(place.file))
+    throw objection_to(index, fmt::format("a DataItem names {}, which is no file of this folder that `{}` writes",
+                                          in_quotes(place.file), input_entries::multiscale));
+  return place;
 }
 
 /// A time of the index.
@@ -66,7 +74,7 @@ std::vector<IndexedTime> times_in(const std::filesystem::path& index)
   pugi::xml_document xml;
   const pugi::xml_parse_result parsed = xml.load_buffer(text.data(), text.size());
   if (LimitOfDepth limit; !xml.traverse(limit))
-    throw InputError(fmt::format("{}: is nested more than {} levels deep", index.string(), LimitOfDepth::most_levels));
+    throw objection_to(index, fmt::format("is nested more than {} levels deep", LimitOfDepth::most_levels));
   const pugi::xml_node all = xml.child("Xdmf").child("Domain").child("Grid");
   if (!parsed || !all)
     throw objection_to_content(index);
@@ -76,12 +84,13 @@ std::vector<IndexedTime> times_in(const std::filesystem::path& index)
       const std::string_view time = grid.child("Time").attribute("Value").value();
       if (!is_decimal_number(time))
         throw objection_to_content(index);
-      times.push_back({parse_number(time), place_of(grid.child("Geometry")), place_of(grid.child("Topology")), {}});
+      times.push_back(
+        {parse_number(time), place_of(grid.child("Geometry"), index), place_of(grid.child("Topology"), index), {}});
       for (const pugi::xml_node& attribute : grid.children("Attribute"))
-        times.back().fields[attribute.attribute("Name").value()] = place_of(attribute);
+        times.back().fields[attribute.attribute("Name").value()] = place_of(attribute, index);
     }
   if (times.empty())
-    throw InputError("there is no time in it");
+    throw objection_to(index, "there is no time in it");
   return times;
 }
 
@@ -94,12 +103,14 @@ std::vector<std::array<double, 3>> points_of(const std::vector<double>& values, 
   return points;
 }
 
-SampleFields fields_of(const std::filesystem::path& folder, const IndexedTime& one)
+/// The fields of a time of the index.
+SampleFields fields_of(const std::filesystem::path& index, const IndexedTime& one)
 {
+  const std::filesystem::path folder = index.parent_path();
   SampleFields fields;
   constexpr double most_rows = 1e12;
   if (!(one.time >= 0.0 && one.time <= most_rows))
-    throw InputError("a time is no number of rows");
+    throw objection_to(index, "a time is no number of rows");
   fields.n_rows = std::size_t(one.time);
   std::vector<double> nodes, displacement;
   std::vector<std::uint32_t> corners;
@@ -108,7 +119,7 @@ SampleFields fields_of(const std::filesystem::path& folder, const IndexedTime& o
     root.array(one.cells.array, corners);
   });
   if (one.fields.empty())
-    throw InputError("there is no field in it");
+    throw objection_to(index, "there is no field in it");
   // Values of each node, those of cells too; all in one file.
   std::map<std::string, std::vector<double>> of_nodes;
   read_foreign_hdf5(folder / one.fields.begin()->second.file, expected(), [&](Hdf5Reader& root) {
@@ -124,7 +135,7 @@ SampleFields fields_of(const std::filesystem::path& folder, const IndexedTime& o
                     of_nodes["displacement"].size() == 3 * n_nodes &&
                     std::all_of(corners.begin(), corners.end(), [=](const std::uint32_t i) { return i < n_nodes; });
   if (!fits)
-    throw InputError("its arrays differ in length");
+    throw objection_to(index, "its arrays differ in length");
   fields.nodes = points_of(nodes, fields.dimension);
   fields.displacement = points_of(of_nodes["displacement"], 3);
   for (std::size_t begin = 0; begin < n_nodes; begin += n_corners)
@@ -145,17 +156,19 @@ std::filesystem::path index_of(const std::filesystem::path& folder, const std::s
 
 SampleFields read_sample_fields(const std::filesystem::path& folder, const std::string& name)
 {
-  return fields_of(folder, times_in(index_of(folder, name)).back());
+  const auto index = index_of(folder, name);
+  return fields_of(index, times_in(index).back());
 }
 
 std::vector<SampleFields> read_earlier_sample_fields(const std::filesystem::path& folder, const std::string& name,
                                                      const std::size_t most_cells)
 {
   std::vector<SampleFields> earlier;
-  const auto times = times_in(index_of(folder, name));
+  const auto index = index_of(folder, name);
+  const auto times = times_in(index);
   for (std::size_t k = 0; k + 1 < times.size(); ++k)
     {
-      earlier.push_back(fields_of(folder, times[k]));
+      earlier.push_back(fields_of(index, times[k]));
       if (earlier.front().cells.size() * (times.size() - 1) > most_cells)
         return {};
     }
@@ -165,7 +178,8 @@ std::vector<SampleFields> read_earlier_sample_fields(const std::filesystem::path
 void for_each_time(const std::filesystem::path& folder, const std::string& name,
                    const std::function<void(const SampleFields&)>& look)
 {
-  for (const IndexedTime& one : times_in(index_of(folder, name)))
-    look(fields_of(folder, one));
+  const auto index = index_of(folder, name);
+  for (const IndexedTime& one : times_in(index))
+    look(fields_of(index, one));
 }
 } // namespace feldspar

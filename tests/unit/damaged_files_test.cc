@@ -479,8 +479,13 @@ TEST(DamagedFiles, FieldsOfSamplesAreRefused)
     }
   folder.write("a.xdmf", std::string(index).replace(index.find("\"5\""), 3, "\"1e300\""));
   EXPECT_NE(refusal(read), "");
-  folder.write("a.xdmf", std::string(index).replace(index.find("a.h5"), 4, "../a.h5"));
-  EXPECT_NE(refusal(read).find("another folder"), std::string::npos);
+  // What it names is shown as text, and nothing outside of the folder is opened.
+  for (const auto& [name, shown] : {std::pair("../a.h5", "\"../a.h5\""), std::pair("a\xa0.h5", "\"a\\xa0.h5\"")})
+    {
+      folder.write("a.xdmf", std::string(index).replace(index.find("a.h5"), 4, name));
+      EXPECT_NE(refusal(read).find(std::string("a.xdmf: a DataItem names ") + shown), std::string::npos)
+        << refusal(read);
+    }
 }
 } // namespace
 } // namespace feldspar
