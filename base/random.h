@@ -19,7 +19,9 @@ enum class RandomStream : std::uint32_t
   dealing = 5,    ///< of RVEs to the points of a sample
   joint_sets = 6, ///< where their traces begin
   mineral_grains = 7,
-  clumps = 8
+  clumps = 8,
+  kinds_of_cells = 9, ///< and how they lie
+  shares = 10         ///< of minerals: the order in which grains change over
 };
 
 /// The same numbers from the same seed with every compiler and library: the engine and its seeding are fixed by the

@@ -74,6 +74,9 @@ std::string design_table(const ResponseModel& model, const std::vector<TestedPoi
 {
   std::string text = "stage,point,seed,modulus_Pa,bond_tensile_strength_Pa,bond_cohesion_Pa,stiffness_ratio,"
                      "bond_friction_angle_rad,friction,installation_gap_ratio";
+  const bool has_boundaries = std::ranges::any_of(
+    model.unknowns(), [](const Unknown& one) { return one.member == &MicroParameters::boundary_strength; });
+  text += has_boundaries ? ",boundary_strength" : "";
   for (std::size_t j = 0; j < model.n_responses(); ++j)
     text += fmt::format(",{}{}", model.response(j).name, model.response(j).shown.unit.empty() ? "" : "_Pa");
   text += '\n';
@@ -84,6 +87,8 @@ std::string design_table(const ResponseModel& model, const std::vector<TestedPoi
                      one.number, one.seed, p.modulus, p.bond_tensile_strength,
                      p.cohesion_ratio * p.bond_tensile_strength, p.stiffness_ratio, p.bond_friction_angle, p.friction,
                      p.gap ? fmt::format("{:.9g}", *p.gap) : "");
+      if (has_boundaries)
+        fmt::format_to(std::back_inserter(text), ",{:.9g}", p.boundary_strength);
       for (const auto& value : one.values)
         text += value ? fmt::format(",{:.9g}", *value) : ",";
       text += '\n';

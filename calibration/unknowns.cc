@@ -32,6 +32,8 @@ std::vector<Unknown> unknowns(const CalibrationParameters& wanted)
   add(wanted.bond_friction_angle, "bond_friction_angle", "bond friction angle", "deg", degree,
       &MicroParameters::bond_friction_angle, false);
   add(wanted.friction, "friction", "friction", "", 1.0, &MicroParameters::friction, false);
+  add(wanted.boundary_strength, "boundary_strength", "boundary strength of minerals", "", 1.0,
+      &MicroParameters::boundary_strength, true);
   add(wanted.installation_gap_ratio, "installation_gap_ratio", "installation gap over mean radius", "", 1.0, nullptr,
       true);
   return all;

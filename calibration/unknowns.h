@@ -18,7 +18,8 @@ struct MicroParameters
   double cohesion_ratio;      ///< bond cohesion over bond tensile strength
   double bond_friction_angle; ///< [rad]
   double friction;
-  std::optional<double> gap; ///< installation gap over the mean radius; none: by the coordination number
+  std::optional<double> gap;      ///< installation gap over the mean radius; none: by the coordination number
+  double boundary_strength = 1.0; ///< of the joints between mineral grains, over that of their rule
 };
 
 /// One of the dimensionless ones, between its bounds.

@@ -35,8 +35,9 @@ struct GrainPicture
   std::array<double, 3> position; ///< at the end [m]
   double radius;                  ///< [m]
   std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
-  std::uint32_t mineral = 0;      ///< number of the mineral grain or clump it is a part of, from 1; 0: of none
+  std::uint32_t group = 0;        ///< number of the mineral grain or clump it is a part of, from 1; 0: of none
   double mean_stress = 0.0;       ///< in the snapshot of the highest load, tension positive [Pa]; 0 of all: not known
+  std::uint32_t mineral = 0;      ///< number of its mineral, from 1; 0: of a rock without minerals
 };
 
 /// The grains at one row of the curve.

@@ -36,6 +36,9 @@ struct Crack
   double released_energy;       ///< [J]
   bool on_smooth_joint = false; ///< of a flaw or at the boundary of a mineral grain
   std::uint64_t event = 0;      ///< number of the event of acoustic emission; 0: none
+  std::uint32_t mineral_1 = 0;  ///< number of the mineral on its one side, from 1; 0: of a rock without minerals
+  std::uint32_t mineral_2 = 0;  ///< on the other side, not below mineral_1
+  bool on_boundary = false;     ///< between two mineral grains
 };
 
 /// An event of acoustic emission: breaks of segments near each other in place and time; on finite elements those of one
@@ -113,9 +116,10 @@ struct TestRecord
   /// The notch of a bending test; none without.
   std::optional<NotchGeometry> notch;
   bool interrupted = false;
-  std::string failure;     ///< why the test could not be made; empty if it could
-  std::string ended_early; ///< why it could not go on to where the stop rule would end it; empty if it did
-  bool came_apart = false; ///< it ended early because beyond its last row nothing held it
+  std::string failure;                ///< why the test could not be made; empty if it could
+  std::string ended_early;            ///< why it could not go on to where the stop rule would end it; empty if it did
+  bool came_apart = false;            ///< it ended early because beyond its last row nothing held it
+  std::vector<MineralShare> minerals; ///< of a rock whose minerals are told apart
 
   EnvelopeRole envelope_role() const { return feldspar::envelope_role(kind, intermediate_stress); }
   int dimension() const { return size[2] > 0.0 ? 3 : 2; }

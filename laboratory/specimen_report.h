@@ -1,9 +1,26 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace feldspar
 {
+/// A mineral as results and pictures tell it from others.
+struct MineralName
+{
+  std::string name;
+  std::uint32_t colour = 0; ///< 0xRRGGBB
+};
+
+/// Share of a mineral in a specimen.
+struct MineralShare
+{
+  MineralName mineral;
+  std::uint64_t n_grains = 0;
+  double share = 0.0; ///< of the grains' volume
+};
+
 /// Figures of a specimen as it came out of genesis.
 struct SpecimenReport
 {

@@ -34,6 +34,7 @@ struct TestResults
   Figure n_smooth_tension_cracks_at_peak;
   Figure n_smooth_shear_cracks_at_peak;
   Figure smooth_tension_share_at_peak;
+  Figure boundary_crack_share_at_peak;
   Figure n_events_at_peak;
   Figure b_value;
   Figure b_value_error;
@@ -83,6 +84,7 @@ Figure shear_share_at_peak(const RisingBranch& branch);
 Figure n_smooth_tension_cracks_at_peak(const RisingBranch& branch);
 Figure n_smooth_shear_cracks_at_peak(const RisingBranch& branch);
 Figure smooth_tension_share_at_peak(const RisingBranch& branch);
+Figure boundary_crack_share_at_peak(const RisingBranch& branch);
 Figure n_events_at_peak(const RisingBranch& branch);
 Figure b_value(const RisingBranch& branch);
 Figure b_value_error(const RisingBranch& branch);
@@ -145,6 +147,8 @@ inline constexpr TestsThatGive compression{"uniaxial and triaxial compression", 
 inline constexpr TestsThatGive smooth_joints{"of bodies with smooth joints", [](const TestRecord& test) {
                                                return test.specimen.n_smooth_joints > 0 ? nullptr : "no smooth joints";
                                              }};
+inline constexpr TestsThatGive minerals{
+  "of rocks of minerals", [](const TestRecord& test) { return test.minerals.empty() ? "no minerals" : nullptr; }};
 inline constexpr TestsThatGive notch{
   "of notched bodies", [](const TestRecord& test) { return test.notch ? nullptr : "the test has no notch"; }};
 inline constexpr TestsThatGive sheared_plane{"direct shear", [](const TestRecord& test) {
@@ -283,6 +287,10 @@ inline constexpr TestQuantity test_quantities[] = {
               "smooth_tension_share_at_peak", "share of tension cracks of smooth joints at the peak",
               display::percent(1), "tension cracks of smooth joints over all cracks up to the peak",
               tests_with::smooth_joints, NeedsBesidesCurve::cracks),
+  row::figure(&TestResults::boundary_crack_share_at_peak, evaluation::boundary_crack_share_at_peak,
+              "boundary_crack_share_at_peak", "share of cracks between mineral grains at the peak", display::percent(1),
+              "cracks between mineral grains over all cracks up to the peak", tests_with::minerals,
+              NeedsBesidesCurve::cracks, InStudies{"boundary_cracks"}),
   row::figure(&TestResults::n_events_at_peak, evaluation::n_events_at_peak, "n_events_at_peak",
               "events of acoustic emission up to the peak", display::plain(0),
               "breaks near each other in place and time", tests_with::one_peak),

@@ -3,6 +3,7 @@
 #include "coupling/network/stiffness_bounds.h"
 #include "coupling/rve/explicit_run.h"
 #include "coupling/rve/path_run.h"
+#include "dem/minerals/mixture_bounds.h"
 #include "dem/specimen/specimen.h"
 #include "results/variant_setting.h"
 #include "runs/observer.h"
@@ -49,8 +50,9 @@ struct FinishedRve
   std::shared_ptr<const Network<dim>> network; ///< shared with the run that it was made for
   StiffnessBounds<dim> bounds;
   PathRecord<dim> record;
-  NetworkState<dim> state; ///< at the end
-  double wall_time = 0.0;  ///< of the path [s]
+  NetworkState<dim> state;                   ///< at the end
+  double wall_time = 0.0;                    ///< of the path [s]
+  std::optional<MixtureBounds> mixture = {}; ///< of a rock of minerals, filled in by who made it
 };
 
 /// Runs paths, as many at a time as there are threads, each from where its checkpoint in `folder`/checkpoints stands to its

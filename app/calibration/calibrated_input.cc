@@ -15,8 +15,8 @@ namespace feldspar::calibration
 {
 namespace
 {
-constexpr std::array<std::string_view, 7> sections_of_laboratory{
-  "Specimen", "Flat joint", "Particle contact", "Dynamics", "Tests", "Seeds", "Report"};
+constexpr std::array<std::string_view, 8> sections_of_laboratory{
+  "Specimen", "Flat joint", "Particle contact", "Minerals", "Dynamics", "Tests", "Seeds", "Report"};
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -45,7 +45,8 @@ MicroParameters micro_parameters(const Input& input)
           joint.bond_cohesion / joint.bond_tensile_strength,
           joint.bond_friction_angle,
           joint.friction,
-          joint.installation_gap_ratio};
+          joint.installation_gap_ratio,
+          input.minerals.boundary_strength};
 }
 
 Input with_parameters(const Input& input, const MicroParameters& parameters)
@@ -66,6 +67,7 @@ Input with_parameters(const Input& input, const MicroParameters& parameters)
   joint.bond_cohesion = without_round_off(parameters.cohesion_ratio * parameters.bond_tensile_strength);
   joint.bond_cohesion_deviation = kept(before.bond_cohesion, before.bond_cohesion_deviation, joint.bond_cohesion);
   joint.bond_friction_angle = without_round_off(parameters.bond_friction_angle / degree) * degree;
+  result.minerals.boundary_strength = without_round_off(parameters.boundary_strength);
   if (parameters.gap)
     {
       joint.installation_gap_ratio = without_round_off(*parameters.gap);
@@ -82,6 +84,8 @@ std::string as_prm(const Input& input, const std::string& comment)
     text += line.empty() ? "#\n" : "# " + line + "\n";
   for (const std::string_view section : sections_of_laboratory)
     {
+      if (section == "Minerals" && input.minerals.minerals.empty())
+        continue;
       fmt::format_to(std::back_inserter(text), "\nsubsection {}\n", section);
       for (const Parameter& parameter : parameter_table())
         if (parameter.section == section && has_use_for(input, parameter))
@@ -104,6 +108,7 @@ MicroParameters rounded(const MicroParameters& parameters)
     to_figures(parameters.cohesion_ratio * parameters.bond_tensile_strength, 1e6) / result.bond_tensile_strength;
   result.bond_friction_angle = to_figures(parameters.bond_friction_angle, degree);
   result.friction = to_figures(parameters.friction, 1.0);
+  result.boundary_strength = to_figures(parameters.boundary_strength, 1.0);
   if (parameters.gap)
     result.gap = to_figures(*parameters.gap, 1.0);
   return result;

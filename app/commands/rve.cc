@@ -1,5 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
+#include "app/input/joint_sections.h"
 #include "app/input/strain_path.h"
 #include "app/programme/checks.h"
 #include "app/programme/reference_body.h"
@@ -10,6 +11,7 @@
 #include "app/run/interrupt.h"
 #include "app/run/provenance.h"
 #include "app/run/run_record.h"
+#include "coupling/rve/homogenisation.h"
 #include "coupling/rve/rve_file.h"
 #include "runs/paths.h"
 #include "runs/share_out.h"
@@ -103,6 +105,28 @@ void share_out_paths(const Run& run, Progress& progress)
   });
 }
 
+/// The bounds on the stiffness of a rock of minerals, each of which alone is as stiff as the same packing without minerals, times
+/// its ratio; none of another rock.
+template <int dim>
+std::optional<MixtureBounds> mixture_bounds_of(const Input& input, const std::uint64_t seed,
+                                               const Specimen<dim>& specimen)
+{
+  if (input.minerals.minerals.empty())
+    return std::nullopt;
+  RockParameters of_one_kind = rock_of(input);
+  of_one_kind.minerals = {};
+  const Network<dim> network(make_rock<dim>(of_one_kind, seed, end_if_interrupted, end_if_interrupted));
+  const auto constants = isotropic_constants<dim>(network.intact_stiffness());
+  std::vector<PhaseModuli> phases;
+  const auto shares = shares_of_minerals(specimen);
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    {
+      const double ratio = input.minerals.minerals[k].within.stiffness;
+      phases.push_back({shares[k].share, ratio * constants.bulk_modulus, ratio * constants.shear_modulus});
+    }
+  return mixture_bounds<dim>(phases);
+}
+
 template <int dim>
 RunEnd strain_alone(const Run& run, Progress& progress)
 {
@@ -117,7 +141,13 @@ RunEnd strain_alone(const Run& run, Progress& progress)
   });
 
   // Strain it.
-  const auto rves = run_paths_on_board(plan_paths<dim>(input, plan), specimens, run.folder, progress);
+  const auto paths = plan_paths<dim>(input, plan);
+  auto rves = run_paths_on_board(paths, specimens, run.folder, progress);
+  for (std::size_t k = 0; k < rves.size(); ++k)
+    {
+      const SpecimenOrder& order = plan.orders[paths[k].specimen];
+      rves[k].mixture = mixture_bounds_of(plan.input_of(order), order.seed, specimens[paths[k].specimen]);
+    }
 
   // Report.
   const bool was_interrupted = interrupted();

@@ -102,6 +102,8 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
           bounds_entry("Bond friction angle", &P::bond_friction_angle, {'[', 0.0, 90.0, ')'}, &angle,
                        "by which compression adds to the shear strength of a bond"),
           bounds_entry("Friction", &P::friction, {'[', 0.0, most, ')'}, nullptr, "of broken segments"),
+          bounds_entry("Boundary strength", &P::boundary_strength, {'(', 0.0, most, ')'}, nullptr,
+                       "factor on the strengths of the joints between mineral grains"),
           bounds_entry("Installation gap ratio", &P::installation_gap_ratio, {'(', 0.0, 1.0, ']'}, nullptr,
                        "largest gap that gets a joint, over the mean radius")};
 }

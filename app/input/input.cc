@@ -10,6 +10,7 @@
 #include "dem/flaws/smooth_planes.h"
 #include "dem/genesis/grain_sizes.h"
 #include "dem/lab/surroundings.h"
+#include "dem/minerals/mineral_map.h"
 #include "laboratory/loading_stages.h"
 
 #include <fmt/format.h>
@@ -80,6 +81,8 @@ std::string refusal_of(const std::string_view section, const std::set<std::strin
     return "has no effect: Mineral grains/Mean size is none and no flaw has the word smooth";
   if (section == "Clumps")
     return "has no effect: Clumps/Diameter is none";
+  if (section == "Minerals")
+    return "has no effect: Minerals/Table is none";
   return fmt::format("is of another joint law; Specimen/Joint law is {}", fmt::join(laws, " or "));
 }
 
@@ -174,6 +177,42 @@ void check_mineral_grains(const Input& input, const GivenEntries& values)
     refuse(fmt::format("has boundaries bonded by Smooth joint/{}, and Smooth joint/{} is missing: give it too, 0 MPa "
                        "for none",
                        has_cohesion ? "Cohesion" : "Tensile strength", has_cohesion ? "Tensile strength" : "Cohesion"));
+}
+
+void check_minerals(const Input& input, const GivenEntries& values)
+{
+  const MineralParameters& wanted = input.minerals;
+  if (wanted.minerals.empty() && input.calibration.boundary_strength)
+    throw values.error("Calibration", "Boundary strength",
+                       "is of rocks of minerals; name their table by Minerals/Table");
+  if (wanted.minerals.empty())
+    return;
+  const auto refuse = [&](const char* entry, const std::string& why) { throw values.error("Minerals", entry, why); };
+  for (const MineralBoundary& boundary : wanted.boundaries)
+    for (const std::string& name : {boundary.one, boundary.two})
+      if (std::ranges::find(wanted.minerals, name, &Mineral::name) == wanted.minerals.end())
+        refuse("Boundaries", fmt::format("{} is not in the table of minerals", in_quotes(name)));
+  if (wanted.map)
+    {
+      if (std::ranges::any_of(wanted.minerals, [](const Mineral& one) { return one.share || one.size > 0.0; }))
+        refuse("Table", "has shares or sizes, which the map gives; leave these columns out, or the map");
+      const auto& [width, height] = std::pair(input.specimen.width, input.specimen.height);
+      minerals_of_map(wanted, {width, input.specimen.dimension == 3 ? width : 0.0, height});
+      return;
+    }
+  for (const char* const entry : {"Pixel size", "Slices", "Slice distance"})
+    if (values.has("Minerals", entry))
+      refuse(entry, "is of a picture; name it by Map");
+  double sum = 0.0;
+  for (const Mineral& one : wanted.minerals)
+    {
+      if (!one.share || !(*one.share > 0.0) || !(one.size > 0.0))
+        refuse("Table", fmt::format("{} needs a share above 0 and a size above 0, for there is no Map", one.name));
+      sum += *one.share;
+    }
+  constexpr double round_off = 1e-6;
+  if (std::abs(sum - 1.0) > round_off)
+    refuse("Table", fmt::format("the shares add up to {:.4g} %; they must be 100 % together", 100.0 * sum));
 }
 
 void check_clumps(const Input& input, const GivenEntries& values)
@@ -401,6 +440,7 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
       check_flaws(variant.input, values);
       check_smooth_joints(variant.input, values);
       check_clumps(variant.input, values);
+      check_minerals(variant.input, values);
       check_mineral_grains(variant.input, values);
     }
   remark_on_map(input);

@@ -11,6 +11,7 @@
 #include "dem/flaws/shapes.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/laws/parameters.h"
+#include "dem/minerals/parameters.h"
 #include "dem/specimen/parameters.h"
 #include "laboratory/kinds.h"
 #include "laboratory/parameters.h"
@@ -87,6 +88,7 @@ struct Input
   std::filesystem::path file_named(std::string_view name) const;
 
   SpecimenParameters specimen;
+  MineralParameters minerals;
   FlawParameters flaws;
   FlatJointParameters flat_joint;
   ParallelBondParameters parallel_bond;

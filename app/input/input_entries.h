@@ -10,6 +10,9 @@ namespace feldspar
 {
 std::vector<Entry<Input>> test_list_entries();
 Entry<SpecimenParameters> sieve_curve_entry();
+/// Of section Minerals: those that name files, and the others.
+std::vector<Entry<Input>> mineral_file_entries();
+std::vector<Entry<MineralParameters>> mineral_entries();
 Entry<Input> checkpoint_entry();
 /// Gravity and the laboratory's rate, of all tests.
 std::vector<Entry<TestParameters>> tests_text_entries();

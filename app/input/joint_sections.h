@@ -44,8 +44,7 @@ inline JointParameters joint_parameters(const Input& input)
 /// The rock that the input asks for.
 inline RockParameters rock_of(const Input& input)
 {
-  return {input.specimen,    joint_parameters(input), input.particle_contact,
-          input.flaws.all(), input.smooth_joint,      input.mineral_grains,
-          input.clumps};
+  return {input.specimen,    joint_parameters(input), input.particle_contact, input.minerals,
+          input.flaws.all(), input.smooth_joint,      input.mineral_grains,   input.clumps};
 }
 } // namespace feldspar

@@ -47,6 +47,8 @@ std::vector<Parameter> make_parameter_table()
   add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
   add("Particle contact", &Input::particle_contact, particle_contact_entries());
   add("Smooth joint", &Input::smooth_joint, smooth_joint_entries());
+  add_own("Minerals", mineral_file_entries());
+  add("Minerals", &Input::minerals, mineral_entries());
   add("Mineral grains", &Input::mineral_grains, mineral_grain_entries());
   add("Clumps", &Input::clumps, clump_entries());
   add_own("Flaws", flaw_entries());
@@ -202,6 +204,8 @@ bool has_use_for(const Input& input, const Parameter& parameter)
   if (parameter.section == "Smooth joint" && !has_smooth_joints(input))
     return false;
   if (parameter.section == "Clumps" && parameter.entry == "Form" && !input.clumps.diameter)
+    return false;
+  if (parameter.section == "Minerals" && parameter.entry != "Table" && input.minerals.minerals.empty())
     return false;
   const auto laws = JointLaws::names();
   return std::none_of(laws.begin(), laws.end(), [&](const std::string_view law) {

@@ -8,8 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <string_view>
+#include <utility>
 
 namespace feldspar
 {
@@ -103,6 +106,14 @@ void write_constants(Json& json, const IsotropicConstants& constants)
   json["anisotropy"] = constants.anisotropy;
 }
 
+std::array<std::pair<std::string_view, Moduli>, 4> named_bounds(const MixtureBounds& bounds)
+{
+  return {{{"reuss", bounds.reuss},
+           {"hashin_shtrikman_lower", bounds.hashin_shtrikman_lower},
+           {"hashin_shtrikman_upper", bounds.hashin_shtrikman_upper},
+           {"voigt", bounds.voigt}}};
+}
+
 /// Largest of a figure over the samples. Where a path has not set off yet, as in explicit dynamics at a first row of zeros, all
 /// terms are round-off and so are their ratios: such a sample does not count.
 template <int dim, typename Of>
@@ -149,6 +160,10 @@ Json as_json(const FinishedRve<dim>& rve)
   json["cell_m"] = rows(network.cell());
   json["stiffness_Pa"] = rows(network.intact_stiffness());
   write_constants(json, isotropic_constants<dim>(network.intact_stiffness()));
+  if (rve.mixture)
+    for (const auto& [name, moduli] : named_bounds(*rve.mixture))
+      json["mixture_bounds"][std::string(name)] = {{"bulk_modulus_Pa", moduli.bulk_modulus},
+                                                   {"shear_modulus_Pa", moduli.shear_modulus}};
   json["stiffness_minimal_kinematic_Pa"] = rows(rve.bounds.minimal_kinematic);
   json["stiffness_affine_Pa"] = rows(rve.bounds.affine);
   json["fabric"] = rows(fabric(network));
@@ -236,6 +251,14 @@ std::string describe(const FinishedRve<dim>& rve)
                       "  anisotropy                    {:.2f} % of the stiffness\n",
                       constants.youngs_modulus / 1e9, constants.poissons_ratio, constants.bulk_modulus / 1e9,
                       constants.shear_modulus / 1e9, 100.0 * constants.anisotropy);
+  if (rve.mixture)
+    text += fmt::format(
+      "  bounds of its minerals        Hashin and Shtrikman K {:.2f} to {:.2f} GPa, G {:.2f} to {:.2f} "
+      "GPa; Reuss and Voigt K {:.2f} to {:.2f}, G {:.2f} to {:.2f}\n",
+      rve.mixture->hashin_shtrikman_lower.bulk_modulus / 1e9, rve.mixture->hashin_shtrikman_upper.bulk_modulus / 1e9,
+      rve.mixture->hashin_shtrikman_lower.shear_modulus / 1e9, rve.mixture->hashin_shtrikman_upper.shear_modulus / 1e9,
+      rve.mixture->reuss.bulk_modulus / 1e9, rve.mixture->voigt.bulk_modulus / 1e9,
+      rve.mixture->reuss.shear_modulus / 1e9, rve.mixture->voigt.shear_modulus / 1e9);
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
       const auto& high = extreme(rve.record, k, 1.0);

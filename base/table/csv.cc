@@ -204,8 +204,8 @@ std::size_t CsvReader::place(const std::string_view column) const
 std::optional<std::size_t> CsvReader::find_in_si(const std::string_view name_in_si)
 {
   constexpr std::pair<std::string_view, const Dimension*> endings[] = {
-    {"_Pa", &stress},  {"_m", &length}, {"_rad", &angle},    {"_per_s", &rate},
-    {"_s", &duration}, {"_J", &energy}, {"_dB", &amplitude}, {"", &strain}};
+    {"_Pa", &stress}, {"_m", &length},     {"_rad", &angle},         {"_per_s", &rate}, {"_s", &duration},
+    {"_J", &energy},  {"_dB", &amplitude}, {"_kg_per_m3", &density}, {"", &strain}};
   const auto& [ending, dimension] =
     *std::ranges::find_if(endings, [&](const auto& one) { return name_in_si.ends_with(one.first); });
   const std::string wanted = plain_name(name_in_si.substr(0, name_in_si.size() - ending.size()));

@@ -130,7 +130,8 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       all_links.push_back({ends.grain_1, ends.grain_2, std::uint32_t(j * face.size()), std::uint32_t(face.size()), true,
                            joint_axes(joints, j), distance * normal, 0.5 * distance + joints.half_radius_difference[j],
                            0.5 * distance - joints.half_radius_difference[j], joints.normal_stiffness[j],
-                           joints.shear_stiffness[j], joints.half_length[j], joints.opening[j], joints.friction});
+                           joints.shear_stiffness[j], joints.half_length[j], joints.opening[j],
+                           joints.friction + joints.further_friction[j]});
       JointStiffness<dim> stiffness = JointStiffness<dim>::Zero();
       for (std::uint32_t i = 0; i < face.size(); ++i)
         {

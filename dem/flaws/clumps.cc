@@ -2,8 +2,8 @@
 
 #include "base/parameter_id.h"
 #include "base/random.h"
-#include "dem/flaws/seeds.h"
 #include "dem/flaws/smooth_planes.h"
+#include "dem/minerals/cells.h"
 #include "dem/specimen/parameters.h"
 
 #include <fmt/format.h>
@@ -81,10 +81,8 @@ void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted)
     }
   else
     {
-      const auto seeds = throw_seeds(specimen, *wanted.diameter, RandomStream::clumps, size_id(), "clump");
-      std::vector<std::uint32_t> cell;
-      for (std::uint32_t i = 0; i < n_grains; ++i)
-        cell.push_back(nearest<dim>(seeds, at<dim>(grains.position, i)));
+      const auto cell = cells_of_grains(
+        specimen, throw_cells(specimen, {{"clump", *wanted.diameter}}, RandomStream::clumps, size_id()));
       belong_together = [cell](const std::uint32_t one, const std::uint32_t two) { return cell[one] == cell[two]; };
     }
 

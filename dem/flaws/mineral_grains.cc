@@ -1,8 +1,8 @@
 #include "dem/flaws/mineral_grains.h"
 
 #include "base/parameter_id.h"
-#include "dem/flaws/seeds.h"
 #include "dem/flaws/smooth_planes.h"
+#include "dem/minerals/cells.h"
 #include "dem/specimen/parameters.h"
 
 #include <fmt/format.h>
@@ -26,10 +26,8 @@ void put_in_mineral_grains(Specimen<dim>& specimen, const MineralGrainParameters
                                            in_words(parameter_id<&SpecimenParameters::shape>())));
   if (const std::string what = objection(boundary); !what.empty())
     throw ParameterError(parameters_id<SmoothJointParameters>(), what);
-  const auto seeds = throw_seeds(specimen, *wanted.mean_size, RandomStream::mineral_grains, size, "mineral grain");
-  specimen.groups.clear();
-  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
-    specimen.groups.push_back(nearest<dim>(seeds, at<dim>(specimen.grains.position, i)));
+  const auto cells = throw_cells(specimen, {{"mineral grain", *wanted.mean_size}}, RandomStream::mineral_grains, size);
+  specimen.groups = cells_of_grains(specimen, cells);
 
   const auto& joints = specimen.joints;
   std::vector<SmoothPlace<dim>> places;
@@ -38,7 +36,7 @@ void put_in_mineral_grains(Specimen<dim>& specimen, const MineralGrainParameters
       const std::uint32_t one = specimen.groups[joints.grain_1[j]];
       const std::uint32_t two = specimen.groups[joints.grain_2[j]];
       if (one != two && joints.holds(j))
-        places.push_back({j, (seeds[two] - seeds[one]).normalized(), joints.face_area(j)});
+        places.push_back({j, (cells[two].centre - cells[one].centre).normalized(), joints.face_area(j)});
     }
   put_smooth_joints(specimen, places, boundary, true);
 }

@@ -2,6 +2,9 @@
 
 #include "dem/storage/segment_place.h"
 
+#include <algorithm>
+#include <tuple>
+
 namespace feldspar
 {
 template <int dim>
@@ -41,6 +44,12 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
   result.normal = in_space<dim>(place.normal);
   result.size = place.size;
   result.released_energy = event.released_energy;
+  if (!body.mineral.empty())
+    {
+      const auto [one, two] = ends_of(body, event);
+      std::tie(result.mineral_1, result.mineral_2) = std::minmax(body.mineral[one] + 1, body.mineral[two] + 1);
+      result.on_boundary = body.groups[one] != body.groups[two];
+    }
   return result;
 }
 

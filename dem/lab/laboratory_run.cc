@@ -107,6 +107,7 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const 
   record.size = in_space<dim>(tested.size);
   record.specimen = tested.report;
   record.bulk_density = tested.bulk_density;
+  record.minerals = shares_of_minerals(tested);
   record.notch = set_up.loading.notch;
   record.normal_stiffness = set_up.loading.normal_stiffness;
   record.way_to_grains = set_up.loading.way_to_grains;
@@ -430,7 +431,7 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     grains.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)), position_of(i),
                       specimen.grains.radius[i], fragment[i], specimen.groups.empty() ? 0 : specimen.groups[i] + 1,
-                      mean_stress_of(i)});
+                      mean_stress_of(i), specimen.mineral.empty() ? 0 : specimen.mineral[i] + 1});
   result.record.fragments = fragments_of(grains, dim);
   return result;
 }

@@ -16,7 +16,7 @@ struct Face
   Real shear_stiffness;  ///< k_s [Pa/m]
   Real half_length;      ///< R̄ [m]
   double thickness;      ///< t of the plane [m]
-  double friction;       ///< μ [-]
+  Real friction;         ///< μ [-]
 };
 
 /// Motion of a face over a step.

@@ -31,7 +31,7 @@ struct Segment
   Real shear_stiffness;  ///< k_s [Pa/m]
   Real length;           ///< ℓ [m]
   double thickness;      ///< t [m]
-  double friction;       ///< μ [-]
+  Real friction;         ///< μ [-]
 
   Real area() const { return length * thickness; }
 };
@@ -43,7 +43,7 @@ struct Segment<3, Real>
   Real normal_stiffness; ///< k_n [Pa/m]
   Real shear_stiffness;  ///< k_s [Pa/m]
   Real element_area;     ///< A_e [m²]
-  double friction;       ///< μ [-]
+  Real friction;         ///< μ [-]
 
   Real area() const { return element_area; }
 };

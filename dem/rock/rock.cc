@@ -5,6 +5,7 @@
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
 #include "dem/genesis/genesis.h"
+#include "dem/minerals/minerals.h"
 #include "dem/specimen/specimen_file.h"
 
 #include <fmt/format.h>
@@ -35,6 +36,7 @@ Specimen<dim> make_rock(const RockParameters& rock, const std::uint64_t seed, co
   auto specimen = rock.specimen.specimen_file.empty()
                     ? make_specimen<dim>(rock.specimen, rock.joint, rock.particle_contact, seed, check, check_within)
                     : read_finished_specimen<dim>(rock.specimen, check_within);
+  put_in_minerals(specimen, rock.minerals);
   put_in_flaws(specimen, rock.flaws, rock.smooth_joint);
   put_in_mineral_grains(specimen, rock.mineral_grains, rock.smooth_joint);
   put_in_clumps(specimen, rock.clumps);

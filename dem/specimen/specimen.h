@@ -33,6 +33,8 @@ struct Specimen
   Joints<dim> joints;
   std::vector<SmoothJoint<dim>> smooth_joints; ///< by their grains; where one stands no joint of the law does
   std::vector<GrainPair> kept_apart;           ///< ascending; on either side of a smooth plane, never in contact
+  std::vector<MineralName> minerals;           ///< of the rock; empty: not told apart
+  std::vector<std::uint32_t> mineral;          ///< of each grain, a number of `minerals`; or empty
   std::vector<std::uint32_t> groups;           ///< the mineral grain or clump that each grain is a part of; or empty
   bool groups_are_rigid = false;               ///< they are clumps: each moves as one body; numbered without gaps
   SpecimenReport report;
@@ -72,6 +74,22 @@ struct Specimen
     return (point - 0.5 * size).template head<dim - 1>().norm();
   }
 };
+
+template <int dim>
+std::vector<MineralShare> shares_of_minerals(const Specimen<dim>& specimen)
+{
+  std::vector<MineralShare> shares;
+  for (const MineralName& mineral : specimen.minerals)
+    shares.push_back({mineral});
+  const double whole = specimen.grains.volume(specimen.thickness);
+  for (std::size_t i = 0; i < specimen.mineral.size(); ++i)
+    {
+      MineralShare& of_its_kind = shares[specimen.mineral[i]];
+      ++of_its_kind.n_grains;
+      of_its_kind.share += grain_volume<dim>(specimen.grains.radius[i], specimen.thickness) / whole;
+    }
+  return shares;
+}
 
 template <int dim>
 PeriodicImage<dim> Specimen<dim>::second_of(const std::size_t joint) const

@@ -177,6 +177,31 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
     }
 }
 
+/// Names and colours of the minerals, and the number of each grain's; nothing of a specimen without.
+template <int dim, typename Archive>
+void transfer_minerals(Archive& grains, Specimen<dim>& specimen)
+{
+  constexpr std::uint32_t most_minerals = 255;
+  if constexpr (Archive::reads)
+    {
+      if (!grains.has("mineral"))
+        return;
+    }
+  else if (specimen.minerals.empty())
+    return;
+  grains.array("mineral", specimen.mineral);
+  std::uint32_t n = std::uint32_t(specimen.minerals.size());
+  grains.value("n_minerals", n);
+  if (n == 0 || n > most_minerals)
+    throw InputError("no mineral, or more than a specimen can have");
+  specimen.minerals.resize(n);
+  for (std::uint32_t k = 0; k < n; ++k)
+    {
+      grains.text(fmt::format("mineral_{}", k + 1), specimen.minerals[k].name);
+      grains.value(fmt::format("colour_{}", k + 1), specimen.minerals[k].colour);
+    }
+}
+
 /// The layout of the file: one description serves writing, which changes nothing, and reading.
 template <int dim, typename Archive>
 void transfer(Archive& root, Specimen<dim>& specimen)
@@ -245,6 +270,8 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   if (has_groups)
     grains.array(group_name, specimen.groups);
 
+  transfer_minerals(grains, specimen);
+
   auto joints = root.subgroup("joints");
   auto& stored = specimen.joints;
   auto division = stored.division;
@@ -275,6 +302,8 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   const auto pass = [&](const std::string& name, auto& values) { transfer_numbers(joints, name, values); };
   stored.visit_per_joint(pass);
   stored.visit_per_segment(pass);
+  if (!specimen.minerals.empty())
+    pass("further_friction", stored.further_friction);
   transfer_smooth_joints(root, specimen);
 }
 
@@ -377,6 +406,21 @@ void check_clumps(const Specimen<dim>& specimen)
 }
 
 template <int dim>
+void check_minerals(const Specimen<dim>& specimen)
+{
+  if (specimen.minerals.empty())
+    return;
+  require(specimen.mineral.size() == specimen.grains.size() && specimen.groups.size() == specimen.grains.size() &&
+            std::all_of(specimen.mineral.begin(), specimen.mineral.end(),
+                        [&](const std::uint32_t mineral) { return mineral < specimen.minerals.size(); }),
+          "a grain has no mineral");
+  require(all_lie(specimen.joints.further_friction, -specimen.joints.friction, largest),
+          "a joint has a negative friction");
+  for (const MineralName& mineral : specimen.minerals)
+    require(is_plain_name(mineral.name), "a mineral has no name");
+}
+
+template <int dim>
 void check_smooth_joints(const Specimen<dim>& specimen)
 {
   const std::size_t n_grains = specimen.grains.size();
@@ -421,6 +465,7 @@ void check(const Specimen<dim>& specimen)
   check_grains(specimen);
   check_joints(specimen);
   check_smooth_joints(specimen);
+  check_minerals(specimen);
   check_clumps(specimen);
 }
 } // namespace

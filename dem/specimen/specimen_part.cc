@@ -66,11 +66,14 @@ Specimen<dim> part_of(Specimen<dim> specimen, const std::vector<bool>& kept)
       one = new_number[one];
       two = new_number[two];
     }
-  std::vector<std::uint32_t> groups;
-  for (std::size_t i = 0; i < specimen.groups.size(); ++i)
-    if (kept[i])
-      groups.push_back(specimen.groups[i]);
-  specimen.groups = groups;
+  for (auto* const of_grains : {&specimen.groups, &specimen.mineral})
+    {
+      std::vector<std::uint32_t> left;
+      for (std::size_t i = 0; i < of_grains->size(); ++i)
+        if (kept[i])
+          left.push_back((*of_grains)[i]);
+      *of_grains = left;
+    }
   if (specimen.groups_are_rigid)
     specimen.report.n_clumps = number_without_gaps(specimen.groups);
 

@@ -70,7 +70,8 @@ struct JointTables
     static constexpr std::size_t rotation = opening + 1;
     static constexpr std::size_t slip = rotation + n_rotations<dim>;
     static constexpr std::size_t slip_energy = slip + n_shear;
-    static constexpr std::size_t count = slip_energy + 1;
+    static constexpr std::size_t further_friction = slip_energy + 1;
+    static constexpr std::size_t count = further_friction + 1;
   };
 
   PackedRow normal_stiffness{state, Row::normal_stiffness};             ///< k_n [Pa/m]
@@ -88,7 +89,8 @@ struct JointTables
   PackedComponents<n_rotations<dim>> rotation = packed_components<n_rotations<dim>>(state, Row::rotation);
   /// Relative shear since installation [m].
   PackedComponents<n_shear> slip = packed_components<n_shear>(state, Row::slip);
-  PackedRow slip_energy{state, Row::slip_energy}; ///< dissipated by friction since installation [J]
+  PackedRow slip_energy{state, Row::slip_energy};           ///< dissipated by friction since installation [J]
+  PackedRow further_friction{state, Row::further_friction}; ///< μ of its minerals, less that of all joints
 
   static constexpr std::size_t n_segment_rows = n_shear + 1;
   static constexpr std::size_t n_strength_rows = 2;
@@ -128,7 +130,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
   std::vector<FaceElement<dim>> elements; ///< the same of every face; [n_segments]
   WholeFace<dim> whole{};                 ///< the same of every face; set by divide()
   double thickness = 1.0;                 ///< of the plane [m]
-  double friction = 0.0;                  ///< μ of broken segments
+  double friction = 0.0;                  ///< μ of broken segments; `further_friction` is added
   double friction_slope = 0.0;            ///< tan φ_b
 
   std::vector<std::uint32_t> grain_1, grain_2;
@@ -152,7 +154,8 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
 
   Face<double> face(const std::size_t joint) const
   {
-    return {this->normal_stiffness[joint], this->shear_stiffness[joint], this->half_length[joint], thickness, friction};
+    return {this->normal_stiffness[joint], this->shear_stiffness[joint], this->half_length[joint], thickness,
+            friction + this->further_friction[joint]};
   }
 
   double face_area(const std::size_t joint) const
@@ -176,7 +179,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     return true;
   }
 
-  /// Visits all properties and states of the joints except their grains, numbers and responses; for code that stores or
+  /// Visits all properties and states of the joints except their grains, numbers, further friction and responses; for code that stores or
   /// permutes joints.
   template <typename Visitor>
   void visit_per_joint(Visitor&& visit)

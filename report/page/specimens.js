@@ -114,6 +114,8 @@ const specimensView = (figure, data, chart, tools) => {
       bar("grains: 0", `${ofEach("typicalMotion")} mm, at the end`);
     else if (set.grains === "stress")
       bar("mean stress at the highest load: compression", `tension, ± ${ofEach("typicalStress")} MPa`, bothWays);
+    else if (set.grains === "mineral grain") // of mineral grains without a kind there is nothing to tell
+      new Map(tests.flatMap(test => test.minerals)).forEach((colour, name) => chip(colour, name));
     else if (set.grains === "fragment") {
       chip(css(plain), "largest piece");
       chip(css(singleGrain), "single grains");
@@ -290,7 +292,7 @@ const specimensView = (figure, data, chart, tools) => {
     figure.buttons([["XZ", () => panes[0].view(0, 0)], ["YZ", () => panes[0].view(Math.PI / 2, 0)], ["XY", () => panes[0].view(0, Math.PI / 2)]]);
     choice("cut", [["whole", "none"], ["x", "in half, across x"], ["y", "in half, across y"], ["z", "in half, across z"]]);
   }
-  choice("grains", [...(panes.every(pane => pane.hasMinerals) ? [["mineral grain", "by mineral grain"]] : []), ["plain", "one colour"],
+  choice("grains", [...(panes.every(pane => pane.hasMinerals) ? [["mineral grain", tests.some(test => test.minerals.length) ? "by mineral" : "by mineral grain"]] : []), ["plain", "one colour"],
                     ["fragment", "by fragment"], ["displacement", "by displacement"],
                     ...(panes.every(pane => pane.hasStress) ? [["stress", "by mean stress"]] : []), ["hidden", "hidden"]]);
   choice("cracks", [["kind", "by kind"], ["strain", "by strain"], ["opening", "by opening"], ["tension", "tension alone"], ["shear", "shear alone"], ["hidden", "hidden"]]);

@@ -4,6 +4,7 @@
 #include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/maps/specimen_data.h"
+#include "report/sections/test_tables.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
 
@@ -100,6 +101,14 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
       if (!findings.is_in_full(n))
         continue;
       section.blocks.push_back(block);
+      if (Table minerals = mineral_table(series); !minerals.rows.empty())
+        {
+          minerals.name += findings.ending_of_files(n);
+          PageBlock of_minerals;
+          of_minerals.folded = findings.titled("Cracks by mineral", series);
+          of_minerals.tables.push_back(std::move(minerals));
+          section.blocks.push_back(of_minerals);
+        }
       if (!of_tests.pictures.empty())
         section.blocks.push_back(of_tests);
     }

@@ -18,6 +18,9 @@ Table stage_table(const std::vector<FinishedTest>& tests);
 /// events.
 Table emission_table(const Series& series, const std::vector<EmissionCatalogue>& catalogues);
 
+/// Cracks of every kind of test by where they lie among the minerals; no rows of rocks without minerals.
+Table mineral_table(const Series& series);
+
 /// Figures of every test in SI: the page shows those that are read most, the file has all.
 Table test_table(const Findings& findings);
 } // namespace feldspar

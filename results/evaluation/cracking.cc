@@ -154,6 +154,14 @@ Figure smooth_tension_share_at_peak(const RisingBranch& branch)
   return share_of_cracks(branch, n_smooth_cracks(branch, CrackKind::tension));
 }
 
+Figure boundary_crack_share_at_peak(const RisingBranch& branch)
+{
+  const auto& cracks = branch.record.cracks;
+  return share_of_cracks(branch, double(std::count_if(cracks.begin(), cracks.end(), [&](const Crack& crack) {
+                           return crack.on_boundary && crack.step <= branch.at_peak().step;
+                         })));
+}
+
 /// Share of the first cracks of a disc near its pads, which tells where a disc that is to be split breaks first.
 /// Hondros' tension across the loaded diameter, of a disc loaded over 20° at either end, is at least half of that in
 /// the middle up to 0.68 of the radius (docs/theory.md §4.4). Single grains at a pad may crack before the disc does, so

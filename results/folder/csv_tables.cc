@@ -4,8 +4,10 @@
 #include "base/table/csv.h"
 #include "base/whole_file.h"
 #include "results/folder/table_columns.h"
+#include "results/minerals.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -256,6 +258,29 @@ std::string read_events(const std::filesystem::path& file, std::vector<FinishedT
     for (const EmissionRow& row : rows[k])
       tests[k].record.events.push_back(row.event);
   return remark;
+}
+
+void write_minerals(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
+{
+  std::string text =
+    "test,step,axial_strain,mineral,share,n_grains,stress_xx_Pa,stress_xy_Pa,stress_xz_Pa,stress_yy_Pa,"
+    "stress_yz_Pa,stress_zz_Pa,n_cracks_within,n_cracks_on_boundaries\n";
+  const std::size_t n_of_header = text.size();
+  for (const auto& test : tests)
+    for (const Snapshot& snapshot : test.appearance.snapshots)
+      {
+        const auto means = mineral_means(test.record, snapshot, test.appearance.grains_at_end);
+        for (std::size_t k = 0; k < means.size(); ++k)
+          {
+            const MineralShare& of = test.record.minerals[k];
+            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{},{:.9g},{},{:.9g},{},{}\n", test.name,
+                           snapshot.step, test.record.kind.sign * snapshot.axial_strain + 0.0, of.mineral.name,
+                           of.share, of.n_grains, fmt::join(means[k].stress, ","), means[k].n_cracks_within,
+                           means[k].n_cracks_on_boundaries);
+          }
+      }
+  if (text.size() > n_of_header)
+    write_whole_file(file, text);
 }
 
 void write_steps(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)

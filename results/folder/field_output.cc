@@ -26,15 +26,15 @@ Points places(const Snapshot& snapshot)
   return points;
 }
 
-/// Number of the group of each grain, from 1; 0 of grains in none. Empty where no grain is in one.
-std::vector<std::uint32_t> groups_of(const std::vector<GrainPicture>& grains)
+/// A number of each grain, from 1; 0 of grains without. Nothing where all are without.
+void add_numbers(VtkData& data, const std::string& name, const std::vector<GrainPicture>& grains,
+                 std::uint32_t GrainPicture::*const number)
 {
-  std::vector<std::uint32_t> groups;
+  std::vector<std::uint32_t> numbers;
   for (const auto& grain : grains)
-    groups.push_back(grain.mineral);
-  return std::all_of(groups.begin(), groups.end(), [](const std::uint32_t group) { return group == 0; })
-           ? std::vector<std::uint32_t>()
-           : groups;
+    numbers.push_back(grain.*number);
+  if (std::any_of(numbers.begin(), numbers.end(), [](const std::uint32_t one) { return one != 0; }))
+    data.count(name, numbers);
 }
 
 VtkData grains_at(const Snapshot& snapshot, const Points& start, const std::vector<GrainPicture>& grains,
@@ -61,8 +61,8 @@ VtkData grains_at(const Snapshot& snapshot, const Points& start, const std::vect
     }
   data.count("fragment", snapshot.fragment);
   data.count("n_broken_segments", snapshot.n_broken_segments);
-  if (const auto groups = groups_of(grains); !groups.empty())
-    data.count(group, groups);
+  add_numbers(data, group, grains, &GrainPicture::group);
+  add_numbers(data, "mineral", grains, &GrainPicture::mineral);
   return data;
 }
 

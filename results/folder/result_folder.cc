@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
 #include <map>
 #include <optional>
@@ -84,6 +85,29 @@ std::vector<StageRecord> stages_of(const Json& json)
           return {};
         }
   return stages;
+}
+
+/// Minerals of the rock; none where a member is missing or is none of a mineral.
+std::vector<MineralShare> minerals_of(const Json& json)
+{
+  std::vector<MineralShare> minerals;
+  if (const auto all = json.find("minerals"); all != json.end() && all->is_array())
+    for (const Json& one : *all)
+      try
+        {
+          const auto name = one.at("name").get<std::string>(), colour = one.at("colour").get<std::string>();
+          constexpr int hexadecimal = 16;
+          std::uint32_t rgb = 0;
+          if (!is_plain_name(name) || colour.size() != 7 || colour[0] != '#' ||
+              std::from_chars(&colour[1], &colour[0] + 7, rgb, hexadecimal).ptr != &colour[0] + 7)
+            return {};
+          minerals.push_back({{name, rgb}, one.at("n_grains").get<std::uint64_t>(), one.at("share").get<double>()});
+        }
+      catch (const Json::exception&)
+        {
+          return {};
+        }
+  return minerals;
 }
 
 /// Notch of the body of a test; none where a member is missing. Layouts from before lengths were written have none of
@@ -155,6 +179,7 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
   test.appearance.flaws = flaws_of(json);
   test.record.stages = stages_of(json);
   test.record.notch = notch_of(json);
+  test.record.minerals = minerals_of(json);
   test.record.peak_demands = peak_demands_of(json);
   if (const auto way = json.find("way_to_grains_m"); way != json.end() && way->is_number())
     test.record.way_to_grains = way->get<double>();
@@ -279,6 +304,7 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
     }
   write_cracks(tests, folder / result_file::cracks);
   write_events(tests, folder / result_file::emission);
+  write_minerals(tests, folder / result_file::minerals);
   write_steps(tests, folder / result_file::steps);
   write_tests(tests, folder / result_file::tests);
   write_summary(made_by, tests, envelopes, folder / result_file::summary);

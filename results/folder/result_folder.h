@@ -16,6 +16,7 @@ inline constexpr const char* summary = "summary.json";
 inline constexpr const char* curves = "curves";
 inline constexpr const char* cracks = "cracks.csv";
 inline constexpr const char* emission = "emission.csv";
+inline constexpr const char* minerals = "minerals.csv";
 inline constexpr const char* tests = "tests.csv";
 inline constexpr const char* steps = "steps.csv";
 inline constexpr const char* grains = "grains";

@@ -25,7 +25,10 @@ inline constexpr Column<Crack> crack_columns[] = {
   column<Crack, &Crack::size>("size_m"),
   column<Crack, &Crack::released_energy>("released_energy_J"),
   column<Crack, &Crack::on_smooth_joint>("on_smooth_joint", "", added_later),
-  column<Crack, &Crack::event>("event", "", added_later)};
+  column<Crack, &Crack::event>("event", "", added_later),
+  column<Crack, &Crack::mineral_1>("mineral_1", "", added_later),
+  column<Crack, &Crack::mineral_2>("mineral_2", "", added_later),
+  column<Crack, &Crack::on_boundary>("on_boundary", "", added_later)};
 
 /// A row of emission.csv: an event and what follows from it.
 struct EmissionRow
@@ -69,7 +72,7 @@ inline constexpr Column<EmissionRow> emission_columns[] = {
   column<EmissionRow, &EmissionRow::event, &EmissionEvent::moment, 5>("moment_zz_Nm")};
 
 /// The columns of grains/NAME.csv. `group`: the name of the column of the groups, which outlives the columns.
-inline std::array<Column<GrainPicture>, 10> grain_columns(const std::string_view group)
+inline std::array<Column<GrainPicture>, 11> grain_columns(const std::string_view group)
 {
   return {column<GrainPicture, &GrainPicture::start, 0>("start_x_m"),
           column<GrainPicture, &GrainPicture::start, 1>("start_y_m"),
@@ -79,7 +82,8 @@ inline std::array<Column<GrainPicture>, 10> grain_columns(const std::string_view
           column<GrainPicture, &GrainPicture::position, 2>("z_m"),
           column<GrainPicture, &GrainPicture::radius>("radius_m"),
           column<GrainPicture, &GrainPicture::fragment>("fragment"),
-          column<GrainPicture, &GrainPicture::mineral>(group, "", added_later),
-          column<GrainPicture, &GrainPicture::mean_stress>("mean_stress_Pa", "", added_later)};
+          column<GrainPicture, &GrainPicture::group>(group, "", added_later),
+          column<GrainPicture, &GrainPicture::mean_stress>("mean_stress_Pa", "", added_later),
+          column<GrainPicture, &GrainPicture::mineral>("mineral", "", added_later)};
 }
 } // namespace feldspar

@@ -108,7 +108,7 @@ void expect_grains(const std::vector<Piece>& series, const FinishedTest& test, c
           EXPECT_EQ(stress[9 * i + 1], stress[9 * i + 3]);
           if (!group.empty())
             {
-              EXPECT_EQ(at_time.arrays.at(group)[i], grain.mineral);
+              EXPECT_EQ(at_time.arrays.at(group)[i], grain.group);
             }
         }
     }

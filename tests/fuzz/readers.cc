@@ -3,6 +3,7 @@
 #include "app/input/curves/laboratory_curve.h"
 #include "app/input/flaw_entries.h"
 #include "app/input/input.h"
+#include "app/input/maps/mineral_files.h"
 #include "app/input/maps/traces.h"
 #include "app/input/strain_path.h"
 #include "app/programme/reference_body.h"
@@ -76,6 +77,23 @@ void read_in_plane_or_space(const Read& read_as)
   catch (const InputError&)
     {
       read_as(std::integral_constant<int, 3>());
+    }
+}
+
+/// A table of minerals as the input has it, or else one of boundaries or points.
+void read_mineral_tables(const std::string& content, const fs::path& folder)
+{
+  const fs::path file = write(folder / "minerals.csv", content);
+  try
+    {
+      read_minerals(file);
+    }
+  catch (const InputError&)
+    {
+      if (content.find("mineral_1") != std::string::npos)
+        read_mineral_boundaries(file);
+      else
+        read_mineral_map(file);
     }
 }
 
@@ -405,6 +423,8 @@ const std::vector<FuzzedReader>& fuzzed_readers()
      }},
     {"drawing", [](Content content,
                    Folder folder) { put_into_small_specimen(read_traces(write(folder / "map.dxf", content)).shapes); }},
+    {"minerals", read_mineral_tables},
+    {"picture", [](Content content, Folder folder) { read_mineral_map(write(folder / "map.png", content)); }},
     {"shapes", [](Content content, Folder) { put_into_small_specimen(parse_shapes(content)); }},
     {"variants",
      [](Content content, Folder folder) { variants(read_input_with("Variants", "Table", content, folder)); }},

@@ -288,7 +288,7 @@ TEST(Clumps, CrackBetweenEachOtherAndTheEnergiesBalance)
           if (specimen.groups[i] == specimen.groups[k])
             {
               EXPECT_EQ(grains[i].fragment, grains[k].fragment);
-              EXPECT_EQ(grains[i].mineral, grains[k].mineral);
+              EXPECT_EQ(grains[i].group, grains[k].group);
               const double then =
                 (at<2>(specimen.grains.position, std::uint32_t(i)) - at<2>(specimen.grains.position, std::uint32_t(k)))
                   .norm();

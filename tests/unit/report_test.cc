@@ -1772,7 +1772,7 @@ TEST(SpecimenData, GivesEachCrackTheRowByWhichItIsThere)
   EXPECT_EQ(json["grains"]["tone"], "");
 
   FinishedTest grouped = test; // of a mineral grain or clump
-  grouped.appearance.grains_at_end[0].mineral = 1;
+  grouped.appearance.grains_at_end[0].group = 1;
   const auto tones = numbers_in(data_of(grouped)["grains"]["tone"], 1);
   EXPECT_EQ((std::vector(tones.begin(), tones.begin() + 3)), (std::vector{0xeau, 0xd9u, 0xb8u}));
 
@@ -1996,7 +1996,7 @@ TEST(ResultFolder, NamesTheGroupsOfGrainsForWhatTheyAre)
   FinishedTest clumps = compression(4);
   clumps.record.specimen.n_clumps = 2;
   for (FinishedTest* const test : {&minerals, &clumps})
-    test->appearance.grains_at_end[1].mineral = 5;
+    test->appearance.grains_at_end[1].group = 5;
   write_result_folder({}, {minerals, clumps}, {}, folder.path());
   const auto header = [&](const std::string& test) {
     const std::string table = content(folder.path() / ("grains/" + test + ".csv"));
@@ -2007,7 +2007,7 @@ TEST(ResultFolder, NamesTheGroupsOfGrainsForWhatTheyAre)
   const auto expect_groups = [&] {
     const auto runs = read_result_folder(folder.path(), test_kinds());
     for (const FinishedTest& test : runs.at(0).tests)
-      EXPECT_EQ(test.appearance.grains_at_end.at(1).mineral, 5u) << test.name;
+      EXPECT_EQ(test.appearance.grains_at_end.at(1).group, 5u) << test.name;
   };
   expect_groups();
   // Folders of before the column was called so.

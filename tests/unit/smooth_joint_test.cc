@@ -661,7 +661,7 @@ TEST(MineralGrains, CrackAtTheirBoundariesAndTheEnergiesBalance)
   EXPECT_EQ(*results.n_smooth_tension_cracks_at_peak.value,
             std::round(*results.smooth_tension_share_at_peak.value *
                        (*results.n_tension_cracks_at_peak.value + *results.n_shear_cracks_at_peak.value)));
-  EXPECT_GT(outcome.appearance.grains_at_end.front().mineral, 0u);
+  EXPECT_GT(outcome.appearance.grains_at_end.front().group, 0u);
 }
 
 TEST(MineralGrains, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)

@@ -306,8 +306,10 @@ template <typename Real, typename Law, int dim>
   rows.template put_all<n_turns>(Row::rotation, motion.rotation);
   rows.template put_all<n_shear>(Row::slip, slip);
 
-  const Face<Real> face{rows.take(Row::normal_stiffness), rows.take(Row::shear_stiffness), rows.take(Row::half_length),
-                        joints.thickness, joints.friction};
+  Face<Real> face{rows.take(Row::normal_stiffness), rows.take(Row::shear_stiffness), rows.take(Row::half_length),
+                  joints.thickness, Real(joints.friction)};
+  // Whole and open faces have no friction: their sweep does not read it.
+  const auto take_friction = [&] { face.friction = joints.friction + rows.take(Row::further_friction); };
   FaceResultants<dim, Real> resultants;
   if constexpr (RespondsAsOne<Law, dim, Real>)
     {
@@ -324,11 +326,17 @@ template <typename Real, typename Law, int dim>
           if (simd::all(holds || stays_open))
             resultants = select(stays_open, FaceResultants<dim, Real>{}, resultants);
           else
-            resultants = update_segments<Real>(law, joints, memory, face, motion, before, resultants, j, breaks);
+            {
+              take_friction();
+              resultants = update_segments<Real>(law, joints, memory, face, motion, before, resultants, j, breaks);
+            }
         }
     }
   else
-    resultants = update_each_segment<Real>(law, joints, face, motion, before, j, breaks);
+    {
+      take_friction();
+      resultants = update_each_segment<Real>(law, joints, face, motion, before, j, breaks);
+    }
   ask_for_responses<Real, JointTables<dim>::n_response_rows>(joints.response.at(0, j));
   store_response(Law::force(contact.frame, half_radius_difference, resultants.normal_force, resultants.shear_force,
                             resultants.moment),

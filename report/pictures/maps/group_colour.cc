@@ -29,20 +29,20 @@ std::map<std::uint32_t, std::set<std::uint32_t>> neighbours_of(const std::vector
   for (const GrainPicture& grain : grains)
     {
       const auto& [x, y, z] = grain.start;
-      if (grain.mineral == 0 || !(std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && side > 0.0))
+      if (grain.group == 0 || !(std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && side > 0.0))
         continue;
-      neighbours[grain.mineral];
+      neighbours[grain.group];
       const GridBox box{std::floor(x / side), std::floor(y / side), std::floor(z / side)};
       for (int k = 0; k < 27; ++k)
         if (const auto found = boxes.find({box[0] + k % 3 - 1, box[1] + k / 3 % 3 - 1, box[2] + k / 9 - 1});
             found != boxes.end())
           for (const GrainPicture* const other : found->second)
-            if (other->mineral != grain.mineral &&
+            if (other->group != grain.group &&
                 std::hypot(other->start[0] - x, other->start[1] - y, other->start[2] - z) <
                   touching * (other->radius + grain.radius))
               {
-                neighbours[grain.mineral].insert(other->mineral);
-                neighbours[other->mineral].insert(grain.mineral);
+                neighbours[grain.group].insert(other->group);
+                neighbours[other->group].insert(grain.group);
               }
       boxes[box].push_back(&grain);
     }
@@ -65,7 +65,7 @@ std::vector<unsigned int> group_colours(const std::vector<GrainPicture>& grains)
   std::vector<unsigned int> colours;
   for (const GrainPicture& grain : grains)
     {
-      const auto found = tone.find(grain.mineral);
+      const auto found = tone.find(grain.group);
       colours.push_back(found == tone.end() ? tone_of_none : group_tones[found->second]);
     }
   return colours;

@@ -7,6 +7,7 @@
 #include "report/pictures/maps/parted_grains.h"
 #include "results/emission.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -92,8 +93,22 @@ Cube cube_around(const TestRecord& record, const std::vector<GrainPicture>& grai
 /// One of how many is kept.
 std::size_t stride_of(const std::size_t n, const std::size_t most) { return n > most ? 1 + (n - 1) / most : 1; }
 
-Json grain_data(const std::vector<GrainPicture>& grains, const std::size_t most, const Cube& cube,
-                const double largest_radius)
+/// The colour of each grain's mineral: 0xRRGGBB, half way to white, so that cracks stand out.
+unsigned int pale(const unsigned int colour) { return ((colour >> 1U) & 0x7f7f7fU) + 0x808080U; }
+
+std::vector<unsigned int> mineral_colours(const std::vector<GrainPicture>& grains,
+                                          const std::vector<MineralShare>& minerals)
+{
+  std::vector<unsigned int> colours;
+  for (const GrainPicture& grain : grains)
+    colours.push_back(grain.mineral > 0 && grain.mineral <= minerals.size()
+                        ? pale(minerals[grain.mineral - 1].mineral.colour)
+                        : 0xffffffU);
+  return colours;
+}
+
+Json grain_data(const std::vector<GrainPicture>& grains, const std::vector<MineralShare>& minerals,
+                const std::size_t most, const Cube& cube, const double largest_radius)
 {
   const std::size_t every = stride_of(grains.size(), most);
   const auto moved = [](const GrainPicture& grain, const std::size_t c) { return grain.position[c] - grain.start[c]; };
@@ -106,8 +121,10 @@ Json grain_data(const std::vector<GrainPicture>& grains, const std::size_t most,
       most_stress = std::max(most_stress, std::abs(grain.mean_stress));
     }
   const bool has_groups =
-    std::any_of(grains.begin(), grains.end(), [](const GrainPicture& grain) { return grain.mineral != 0; });
-  const auto colours = has_groups ? group_colours(grains) : std::vector<unsigned int>();
+    std::any_of(grains.begin(), grains.end(), [](const GrainPicture& grain) { return grain.group != 0; });
+  const auto colours = !minerals.empty() ? mineral_colours(grains, minerals)
+                       : has_groups      ? group_colours(grains)
+                                         : std::vector<unsigned int>();
   Bytes places, moves, fragments, tones, stresses;
   for (std::size_t i = 0; i < grains.size(); i += every)
     {
@@ -116,7 +133,7 @@ Json grain_data(const std::vector<GrainPicture>& grains, const std::size_t most,
       for (std::size_t c = 0; c < 3; ++c)
         moves.add_signed(moved(grains[i], c) / most_moved, 2);
       fragments.add(std::min<std::uint32_t>(grains[i].fragment, 65535), 2);
-      for (int shift = 16; has_groups && shift >= 0; shift -= 8)
+      for (int shift = 16; !colours.empty() && shift >= 0; shift -= 8)
         tones.add(colours[i] >> shift, 1);
       if (most_stress > 0.0)
         stresses.add_signed(grains[i].mean_stress / most_stress, 2);
@@ -238,6 +255,10 @@ Json data_of(const TitledTest& one, const std::size_t n)
     rows.push_back({live::number(record.kind.strain(*row) / milli), live::number(record.kind.stress(*row) / mega, 4),
                     row->n_tension_cracks, row->n_shear_cracks});
 
+  Json minerals = Json::array();
+  for (const MineralShare& one_of : record.minerals)
+    minerals.push_back({one_of.mineral.name, fmt::format("#{:06x}", pale(one_of.mineral.colour))});
+
   Json stages = Json::array(); // which a picture shows
   for (const MapStage& stage : map_stages(record))
     stages.push_back({stage.title, row_of(stage.last_step, kept)});
@@ -268,8 +289,9 @@ Json data_of(const TitledTest& one, const std::size_t n)
     {"size", live::number(size / milli)},
     {"gap", live::number(record.specimen.installation_gap_ratio * mean_radius / milli)},
     {"rows", rows},
+    {"minerals", minerals},
     {"stages", stages},
-    {"grains", grain_data(grains, most_grains / n, cube, radius)},
+    {"grains", grain_data(grains, record.minerals, most_grains / n, cube, radius)},
     {"flaws", flaw_data(test.appearance.flaws)},
     {"cracks", crack_data(cracks, grains, kept, cube, most_cracks / n, size)},
     {"events", event_data(record, kept, cube, most_events / n)}};

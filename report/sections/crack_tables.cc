@@ -10,6 +10,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
 
 namespace feldspar
 {
@@ -71,6 +75,61 @@ Table emission_table(const Series& series, const std::vector<EmissionCatalogue>&
       const std::vector<double> magnitudes = catalogue.magnitudes_to_peak();
       add(catalogue.name, "to the peak", magnitudes, catalogue.step(), magnitudes.size(), 0.0);
       table.rows.back().insert(table.rows.back().end(), n_kinds, none);
+    }
+  return table;
+}
+
+namespace
+{
+/// "in quartz", "quartz | mica".
+std::string place_of(const Crack& crack, const std::vector<MineralShare>& minerals)
+{
+  const auto name = [&](const std::uint32_t number) {
+    return number <= minerals.size() ? minerals[number - 1].mineral.name : std::string("?");
+  };
+  return crack.on_boundary ? name(crack.mineral_1) + " | " + name(crack.mineral_2) : "in " + name(crack.mineral_1);
+}
+} // namespace
+
+Table mineral_table(const Series& series)
+{
+  static constexpr std::array<double, 3> shares{0.5, 0.8, 1.0};
+  Table table{
+    "minerals",
+    "Cracks in minerals and at boundaries between mineral grains up to shares of the strain at the peak, all tests of a "
+    "kind together",
+    {"test", "place", "cracks up to 50 %", "up to 80 %", "up to the peak", "of all at the peak [%]", "in shear [%]"},
+    {}};
+  struct Counts
+  {
+    std::array<std::size_t, shares.size()> up_to{};
+    std::size_t in_shear = 0;
+  };
+  for (const auto& group : groups_of(series))
+    {
+      std::map<std::tuple<bool, std::uint32_t, std::uint32_t>, std::pair<std::string, Counts>> places;
+      std::size_t all = 0;
+      for (const auto* test : group.tests)
+        if (const auto& peak = test->results.strain_at_peak.value)
+          for (const Crack& crack : test->record.cracks)
+            if (const double share = test->record.kind.sign * crack.axial_strain / *peak;
+                crack.mineral_1 > 0 && share <= shares.back())
+              {
+                auto& [place, counts] = places[{crack.on_boundary, crack.mineral_1, crack.mineral_2}];
+                place = place_of(crack, test->record.minerals);
+                for (std::size_t k = 0; k < shares.size(); ++k)
+                  counts.up_to[k] += share <= shares[k];
+                counts.in_shear += crack.kind == CrackKind::shear;
+                ++all;
+              }
+      for (const auto& [key, of_place] : places)
+        {
+          const auto& [place, counts] = of_place;
+          const double n = double(counts.up_to.back());
+          table.rows.push_back({group.title(), place, fmt::format("{}", counts.up_to[0]),
+                                fmt::format("{}", counts.up_to[1]), fmt::format("{}", counts.up_to[2]),
+                                number(100.0 * n / double(all), 1), number(100.0 * double(counts.in_shear) / n, 1)});
+        }
     }
   return table;
 }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "laboratory/appearance.h"
+#include "laboratory/record.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+/// What happens in each mineral of a rock.
+namespace feldspar
+{
+struct MineralMeans
+{
+  /// Mean stress of its grains, weighed by their volumes: xx, xy, xz, yy, yz, zz, tension positive [Pa]. Times the shares of the
+  /// minerals they add up to the stress of the specimen.
+  std::array<double, 6> stress{};
+  std::uint64_t n_cracks_within = 0;        ///< so far
+  std::uint64_t n_cracks_on_boundaries = 0; ///< so far, with itself or another
+};
+
+/// [n_minerals]; none of a rock without minerals. Stresses are NaN where the snapshot has none.
+std::vector<MineralMeans> mineral_means(const TestRecord& record, const Snapshot& snapshot,
+                                        const std::vector<GrainPicture>& grains);
+
+/// Numbers of cracks up to a step.
+struct CracksByMineral
+{
+  std::map<std::uint32_t, std::uint64_t> within;                                  ///< by the mineral's number, from 1
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> on_boundaries; ///< by the numbers of both, from 1
+};
+
+CracksByMineral cracks_by_mineral(const std::vector<Crack>& cracks, std::uint64_t last_step);
+} // namespace feldspar

@@ -1,0 +1,115 @@
+// Rocks of minerals, as the command tests them.
+
+#include "base/table/csv.h"
+#include "tests/app/run_command.h"
+#include "tests/content.h"
+#include "tests/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace feldspar::tests
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+void write_rock(const TemporaryFolder& folder)
+{
+  folder.write("minerals.csv",
+               "mineral,share [%],size [mm],colour,stiffness_ratio,tensile_strength_ratio,cohesion_ratio\n"
+               "quartz,60,5,#b8c4d0,1.5,1,1\n"
+               "mica,40,4,#505050,0.5,0.3,0.3\n");
+  folder.write("rock.prm", R"(subsection Specimen
+  set Width  = 14 mm
+  set Height = 28 mm
+end
+subsection Minerals
+  set Table             = minerals.csv
+  set Boundary strength = 0.5
+end
+subsection Tests
+  set List = uniaxial_compression
+end
+)");
+}
+
+/// The mean stress that all minerals together have at each step, and the sums of their shares.
+TEST(Minerals, OfATestAreInItsFiles)
+{
+  const TemporaryFolder folder;
+  write_rock(folder);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output one --threads 1 --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output two --threads 2 --quiet").exit_code, 0);
+  for (const char* const file : {"minerals.csv", "cracks.csv", "grains/uniaxial_compression.csv"})
+    EXPECT_EQ(content(folder.path() / "one" / file), content(folder.path() / "two" / file)) << file;
+
+  CsvReader table(folder.path() / "one/minerals.csv");
+  std::map<std::string, double> shares, last_within;
+  while (table.next())
+    {
+      const std::string mineral(table.text(table.place("mineral")));
+      shares[mineral] = table.number(table.place("share"));
+      last_within[mineral] = table.number(table.place("n_cracks_within"));
+    }
+  EXPECT_NEAR(shares["quartz"], 0.6, 0.01);
+  EXPECT_NEAR(shares["quartz"] + shares["mica"], 1.0, 1e-8);
+
+  // Every crack is in a mineral or at a boundary; grains stand on both sides.
+  CsvReader cracks(folder.path() / "one/cracks.csv");
+  std::map<std::string, double> within;
+  std::size_t n_on_boundaries = 0;
+  while (cracks.next())
+    {
+      const double one = cracks.number(cracks.place("mineral_1")), two = cracks.number(cracks.place("mineral_2"));
+      EXPECT_TRUE(1 <= one && one <= two && two <= 2);
+      if (cracks.number(cracks.place("on_boundary")) == 1.0)
+        ++n_on_boundaries;
+      else
+        {
+          EXPECT_EQ(one, two);
+          ++within[one == 1.0 ? "quartz" : "mica"];
+        }
+    }
+  EXPECT_EQ(within["mica"], last_within["mica"]); // the last snapshot is the end
+  EXPECT_GT(n_on_boundaries, 0u);
+
+  const auto summary = nlohmann::json::parse(content(folder.path() / "one/summary.json"));
+  EXPECT_EQ(summary["tests"][0]["minerals"][1]["name"], "mica");
+  EXPECT_EQ(summary["tests"][0]["minerals"][1]["colour"], "#505050");
+  EXPECT_GT(summary["tests"][0]["boundary_crack_share_at_peak"], 0.2);
+
+  // A page made anew from the files knows the minerals too.
+  ASSERT_EQ(run_feldspar(folder.path(), "report one --output page.html").exit_code, 0);
+  const std::string page = content(folder.path() / "page.html");
+  for (const char* const words : {"Cracks by mineral", "quartz | mica", "in mica"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
+/// K and G of a periodic volume lie between Hashin and Shtrikman's bounds, those between Reuss's and Voigt's.
+TEST(Minerals, OfAVolumeStandBetweenTheirBounds)
+{
+  const TemporaryFolder folder;
+  write_rock(folder);
+  ASSERT_EQ(
+    run_feldspar(folder.path(),
+                 "rve rock.prm --output rve --quiet --set 'Specimen/Shape = periodic' --set "
+                 "'Specimen/Height = 14 mm' --set 'Strain path/Direction = 0, 1, 0' --set 'Strain path/Size = 1e-6'")
+      .exit_code,
+    0);
+  const auto rve = nlohmann::json::parse(content(folder.path() / "rve/summary.json"))["rves"][0];
+  for (const char* const modulus : {"bulk_modulus_Pa", "shear_modulus_Pa"})
+    {
+      const auto bound = [&](const char* const name) { return rve["mixture_bounds"][name][modulus].get<double>(); };
+      EXPECT_LT(bound("reuss"), bound("hashin_shtrikman_lower"));
+      EXPECT_LT(bound("hashin_shtrikman_lower"), rve[modulus].get<double>()) << modulus;
+      EXPECT_LT(rve[modulus].get<double>(), bound("hashin_shtrikman_upper")) << modulus;
+      EXPECT_LT(bound("hashin_shtrikman_upper"), bound("voigt"));
+    }
+}
+} // namespace
+} // namespace feldspar::tests
