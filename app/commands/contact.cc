@@ -178,7 +178,8 @@ std::string contact_response(const Input& input, const std::filesystem::path& in
   if (input.contact.path_file.empty())
     throw InputError(
       fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", input_file.string()));
-  for (const auto& [section, entry] : {std::pair("Clumps", "Diameter"), std::pair("Mineral grains", "Mean size")})
+  for (const auto& [section, entry] :
+       {std::pair("Clumps", "Diameter"), std::pair("Mineral grains", "Mean size"), std::pair("Minerals", "Table")})
     if (const std::string value = find_parameter(section, entry)->write(input); value != none)
       throw InputError(fmt::format("{}: {}/{} = {}: one contact of two grains has no use for it; leave it out",
                                    input_file.string(), section, entry, value));

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -78,7 +79,8 @@ void check_bonds(const Input& input, const GivenEntries& values)
 std::string refusal_of(const std::string_view section, const std::set<std::string>& laws)
 {
   if (section == "Smooth joint")
-    return "has no effect: Mineral grains/Mean size is none and no flaw has the word smooth";
+    return "has no effect: Mineral grains/Mean size is none, Minerals/Grains has no smooth boundaries and no flaw has the "
+           "word smooth";
   if (section == "Clumps")
     return "has no effect: Clumps/Diameter is none";
   if (section == "Minerals")
@@ -133,14 +135,24 @@ void check_joint_law(const Input& input, const GivenEntries& values)
   check_uses(input, all, values);
 }
 
+/// The entry that makes a grain-based model of the rock, section first; none of another rock.
+std::optional<std::pair<const char*, const char*>> grain_based_entry(const Input& input)
+{
+  if (input.mineral_grains.mean_size)
+    return std::pair("Mineral grains", "Mean size");
+  if (input.minerals.form == MineralGrainForm::smooth_boundaries)
+    return std::pair("Minerals", "Grains");
+  return std::nullopt;
+}
+
 void check_smooth_joints(const Input& input, const GivenEntries& values)
 {
   if (!has_smooth_joints(input))
     return;
-  const bool of_minerals = input.mineral_grains.mean_size.has_value();
+  const auto entry = grain_based_entry(input);
   if (input.specimen.shape == BodyShape::periodic)
     throw values.error(
-      of_minerals ? "Mineral grains" : "Flaws", of_minerals ? "Mean size" : "Shapes",
+      entry ? entry->first : "Flaws", entry ? entry->second : "Shapes",
       "puts in smooth joints, which need Specimen/Shape = box or cylinder; it is periodic, and a representative "
       "volume takes none");
   const auto check = [&](const SmoothJointParameters& wanted, const char* section, const char* entry) {
@@ -163,9 +175,10 @@ void check_mineral_grains(const Input& input, const GivenEntries& values)
     return values.has("Smooth joint", entry) ||
            std::find(varied.begin(), varied.end(), "Smooth joint/" + entry) != varied.end();
   };
-  if (!input.mineral_grains.mean_size)
+  const auto entry = grain_based_entry(input);
+  if (!entry)
     return;
-  const auto refuse = [&](const std::string& why) { throw values.error("Mineral grains", "Mean size", why); };
+  const auto refuse = [&values, of = *entry](const std::string& why) { throw values.error(of.first, of.second, why); };
   const bool has_tensile_strength = is_said("Tensile strength");
   const bool has_cohesion = is_said("Cohesion");
   if (!has_tensile_strength && !has_cohesion)
@@ -194,6 +207,9 @@ void check_minerals(const Input& input, const GivenEntries& values)
         refuse("Boundaries", fmt::format("{} is not in the table of minerals", in_quotes(name)));
   if (wanted.map)
     {
+      if (wanted.form == MineralGrainForm::smooth_boundaries)
+        refuse("Grains",
+               "smooth boundaries are planes between Voronoi cells, and a Map has any; set Grains = breakable");
       if (std::ranges::any_of(wanted.minerals, [](const Mineral& one) { return one.share || one.size > 0.0; }))
         refuse("Table", "has shares or sizes, which the map gives; leave these columns out, or the map");
       const auto& [width, height] = std::pair(input.specimen.width, input.specimen.height);
@@ -217,8 +233,15 @@ void check_minerals(const Input& input, const GivenEntries& values)
 
 void check_clumps(const Input& input, const GivenEntries& values)
 {
-  if (!input.clumps.diameter)
+  const bool has_rigid_minerals = input.minerals.form == MineralGrainForm::rigid;
+  if (!input.clumps.diameter && !has_rigid_minerals)
     return;
+  if (has_rigid_minerals && (input.specimen.dimension != 2 || input.specimen.shape != BodyShape::box ||
+                             !input.flaws.shapes.empty() || !input.flaws.traces.empty()))
+    throw values.error(
+      "Minerals", "Grains",
+      "rigid mineral grains are in the plane, in a box and without flaws: set Specimen/Dimension = 2 and "
+      "Specimen/Shape = box, and leave section Flaws out");
   for (const TestKind& kind : input.test_list)
     if (const std::string objection = objection_to_clumps(kind); !objection.empty())
       throw values.error("Tests", "List", objection);

@@ -70,6 +70,14 @@ std::vector<Entry<MineralParameters>> mineral_entries()
                    of_rock),
     entry::optional_quantity("Slice distance", &P::slice_distance, Measure::length, "mm", ranges::above_zero,
                              "between slices; none: the size of a pixel", of_rock),
+    entry::choice("Grains", &P::form,
+                  {{"breakable", MineralGrainForm::breakable},
+                   {"smooth boundaries", MineralGrainForm::smooth_boundaries},
+                   {"rigid", MineralGrainForm::rigid}},
+                  "mineral grains: breakable, with joints of the law inside and between; with smooth boundaries, "
+                  "smooth joints between them, whose strengths section Smooth joint must give (a grain-based model); "
+                  "rigid, clumps with joints between them only, in the plane",
+                  of_rock),
     entry::number("Boundary strength", &P::boundary_strength, ranges::from_zero,
                   "factor on tensile strength and cohesion of all joints between mineral grains", of_rock)};
 }

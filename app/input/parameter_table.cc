@@ -195,7 +195,7 @@ const Demand* unmet_demand(const Input& input, const Parameter& parameter)
 bool has_smooth_joints(const Input& input)
 {
   const auto shapes = input.flaws.all();
-  return input.mineral_grains.mean_size ||
+  return input.mineral_grains.mean_size || input.minerals.form == MineralGrainForm::smooth_boundaries ||
          std::any_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return smooth_sides(shape) != nullptr; });
 }
 

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "dem/flaws/smooth_planes.h"
 #include "dem/minerals/cells.h"
+#include "dem/minerals/parameters.h"
 #include "dem/specimen/parameters.h"
 
 #include <fmt/format.h>
@@ -58,39 +59,16 @@ std::vector<std::vector<std::uint32_t>> joined(const Specimen<dim>& specimen)
       }
   return others;
 }
-} // namespace
 
+/// Groups grow from the grains in this order along the joints, to where grains do not belong together: grains that are connected
+/// only across another group stay apart.
 template <int dim>
-void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted)
+void make_rigid(Specimen<dim>& specimen, const std::vector<std::uint32_t>& order,
+                const std::function<bool(std::uint32_t, std::uint32_t)>& belong_together)
 {
-  if (!wanted.diameter)
-    return;
-  check(specimen, *wanted.diameter);
-  const auto& grains = specimen.grains;
-  const auto n_grains = std::uint32_t(grains.size());
-  std::vector<std::uint32_t> order(n_grains);
-  std::iota(order.begin(), order.end(), 0u);
-  std::function<bool(std::uint32_t, std::uint32_t)> belong_together;
-  if (wanted.form == ClumpForm::stamped)
-    {
-      Random(specimen.seed, RandomStream::clumps).shuffle(order);
-      const double reach = 0.5 * *wanted.diameter;
-      belong_together = [&, reach](const std::uint32_t middle, const std::uint32_t other) {
-        return (at<dim>(grains.position, other) - at<dim>(grains.position, middle)).norm() < reach;
-      };
-    }
-  else
-    {
-      const auto cell = cells_of_grains(
-        specimen, throw_cells(specimen, {{"clump", *wanted.diameter}}, RandomStream::clumps, size_id()));
-      belong_together = [cell](const std::uint32_t one, const std::uint32_t two) { return cell[one] == cell[two]; };
-    }
-
-  // Groups grow from the middle of each stamp, or any grain of a cell, along the joints: grains that are connected only
-  // across another group stay apart.
   const auto others = joined(specimen);
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> group(n_grains, none);
+  std::vector<std::uint32_t> group(order.size(), none);
   std::uint32_t n_groups = 0;
   for (const std::uint32_t middle : order)
     {
@@ -116,12 +94,54 @@ void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted)
     if (specimen.groups[specimen.joints.grain_1[j]] != specimen.groups[specimen.joints.grain_2[j]])
       kept.push_back(j);
   specimen.joints.keep(kept);
-  if (specimen.joints.size() == 0)
-    refuse(*wanted.diameter, "leaves no joint between two clumps; make it smaller");
   specimen.report.n_joints = specimen.n_joints();
   number_joints(specimen);
+}
+} // namespace
+
+template <int dim>
+void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted)
+{
+  if (!wanted.diameter)
+    return;
+  check(specimen, *wanted.diameter);
+  const auto& grains = specimen.grains;
+  std::vector<std::uint32_t> order(grains.size());
+  std::iota(order.begin(), order.end(), 0u);
+  if (wanted.form == ClumpForm::stamped)
+    {
+      Random(specimen.seed, RandomStream::clumps).shuffle(order);
+      const double reach = 0.5 * *wanted.diameter;
+      make_rigid(specimen, order, [&, reach](const std::uint32_t middle, const std::uint32_t other) {
+        return (at<dim>(grains.position, other) - at<dim>(grains.position, middle)).norm() < reach;
+      });
+    }
+  else
+    {
+      const auto cell = cells_of_grains(
+        specimen, throw_cells(specimen, {{"clump", *wanted.diameter}}, RandomStream::clumps, size_id()));
+      make_rigid(specimen, order,
+                 [&](const std::uint32_t one, const std::uint32_t two) { return cell[one] == cell[two]; });
+    }
+  if (specimen.joints.size() == 0)
+    refuse(*wanted.diameter, "leaves no joint between two clumps; make it smaller");
+}
+
+template <int dim>
+void make_minerals_rigid(Specimen<dim>& specimen)
+{
+  if (dim == 3 || specimen.shape != BodyShape::box || !specimen.flaws.empty())
+    throw ParameterError(parameter_id<&MineralParameters::form>(),
+                         "rigid mineral grains are in a box in the plane and without flaws");
+  const auto groups = specimen.groups;
+  std::vector<std::uint32_t> order(groups.size());
+  std::iota(order.begin(), order.end(), 0u);
+  make_rigid(specimen, order,
+             [&](const std::uint32_t one, const std::uint32_t two) { return groups[one] == groups[two]; });
 }
 
 template void put_in_clumps<2>(Specimen<2>&, const ClumpParameters&);
 template void put_in_clumps<3>(Specimen<3>&, const ClumpParameters&);
+template void make_minerals_rigid<2>(Specimen<2>&);
+template void make_minerals_rigid<3>(Specimen<3>&);
 } // namespace feldspar

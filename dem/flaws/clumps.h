@@ -25,4 +25,8 @@ struct ClumpParameters
 /// be no clumps: in space, in periodic cells, beside mineral grains or flaws.
 template <int dim>
 void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted);
+
+/// Makes clumps of the mineral grains, of each as many as hang together by joints. Throws InputError where there can be no clumps.
+template <int dim>
+void make_minerals_rigid(Specimen<dim>& specimen);
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/minerals/parameters.h"
 #include "dem/specimen/specimen.h"
 
 #include <optional>
@@ -18,4 +19,10 @@ struct MineralGrainParameters
 template <int dim>
 void put_in_mineral_grains(Specimen<dim>& specimen, const MineralGrainParameters& wanted,
                            const SmoothJointParameters& boundary);
+
+/// Puts a smooth joint at every bonded joint between two mineral grains that are there, with the normal from centroid to centroid
+/// and the ratios of their boundary. Throws InputError where there can be no smooth joints.
+template <int dim>
+void join_minerals_smoothly(Specimen<dim>& specimen, const MineralParameters& wanted,
+                            const SmoothJointParameters& boundary);
 } // namespace feldspar

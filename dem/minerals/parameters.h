@@ -52,6 +52,14 @@ struct MineralMap
   std::vector<std::string> mineral_of_point; ///< by its name
 };
 
+/// What mineral grains are made of, and how they meet.
+enum class MineralGrainForm
+{
+  breakable,         ///< joints of the law inside and between
+  smooth_boundaries, ///< smooth joints between: the grain-based model (Potyondy 2010)
+  rigid              ///< clumps: joints between them only
+};
+
 struct MineralParameters
 {
   std::string table;                    ///< CSV of the minerals; empty: the rock has none
@@ -60,8 +68,9 @@ struct MineralParameters
   std::optional<double> pixel_size;     ///< [m]
   unsigned int n_slices = 1;            ///< of the depth, one below the other in the picture
   std::optional<double> slice_distance; ///< none: the size of a pixel [m]
-  double boundary_strength = 1.0;       ///< factor on both strengths of the bonds of all boundaries
-  std::vector<Mineral> minerals;        ///< of the table
+  MineralGrainForm form = MineralGrainForm::breakable;
+  double boundary_strength = 1.0; ///< factor on both strengths of the bonds of all boundaries
+  std::vector<Mineral> minerals;  ///< of the table
   std::vector<MineralBoundary> boundaries;
   std::shared_ptr<const MineralMap> map; ///< none: Voronoi cells
 };

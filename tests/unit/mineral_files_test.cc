@@ -33,7 +33,8 @@ std::string words_of_refusal(const std::function<void()>& read)
 
 void expect_words(const std::function<void()>& read, const std::string& words)
 {
-  EXPECT_NE(words_of_refusal(read).find(words), std::string::npos) << "not: " << words << "\n    " << words_of_refusal(read);
+  EXPECT_NE(words_of_refusal(read).find(words), std::string::npos)
+    << "not: " << words << "\n    " << words_of_refusal(read);
 }
 
 /// A PNG of one colour.
@@ -90,14 +91,13 @@ TEST(MineralFiles, TablesWithMistakesAreRefused)
   expect_words(table("mineral,share [%]\nmica,20\nmica,80\n"), "m.csv:3: mica stands in the table already");
   expect_words(table("mineral,share [%]\nmica,120\n"), "must lie in [0, 1]");
   expect_words(table("mineral,size\nmica,2\n"), "has no unit; write it as in \"size [m]\"");
-  expect_words(table("mineral,hardness\nmica,2\n"),
-                 "\"hardness\" is no column of this table; they are mineral, share");
+  expect_words(table("mineral,hardness\nmica,2\n"), "\"hardness\" is no column of this table; they are mineral, share");
   expect_words(table("mineral,colour\nmica,red\n"), "\"red\" is no colour; write red, green and blue as #rrggbb");
   expect_words(table("mineral\nmica/biotite\n"), "is no name of a mineral");
   expect_words(table("mineral,stiffness_ratio\nmica,0\n"), "stiffness_ratio = 0 must lie in");
   expect_words(table("share [%]\n2\n"), "mineral");
   expect_words([&] { read_mineral_boundaries(folder.write("b.csv", "mineral_1,mineral_2\na,b\nb,a\n")); },
-                 "b.csv:3: the boundary of b and a stands in the table already");
+               "b.csv:3: the boundary of b and a stands in the table already");
   expect_words([&] { read_mineral_map(folder.write("p.csv", "x [mm],mineral\n1,mica\n")); }, "a point needs x and y");
 }
 
@@ -123,9 +123,9 @@ TEST(MineralFiles, PicturesOfOtherKindsAreRefused)
   const auto picture = [](const std::filesystem::path& file) { return [file] { read_mineral_map(file); }; };
   expect_words(picture(folder.write("no.png", "GIF89a")), "no.png: is no PNG, or damaged");
   expect_words(picture(png<std::uint16_t>(folder.path() / "deep.png", PNG_FORMAT_LINEAR_RGB, 3, {9, 9, 9})),
-                 "has 16 bits a colour; save it with 8");
+               "has 16 bits a colour; save it with 8");
   expect_words(picture(png<std::uint8_t>(folder.path() / "alpha.png", PNG_FORMAT_RGBA, 4, {9, 9, 9, 9})),
-                 "has transparent pixels; save it without transparency");
+               "has transparent pixels; save it without transparency");
   const auto whole = png<std::uint8_t>(folder.path() / "a.png", PNG_FORMAT_RGB, 3, {200, 100, 50}, 300, 300);
   const std::string bytes = tests::content(whole);
   expect_words(picture(folder.write("cut.png", bytes.substr(0, bytes.size() / 2))), "is no PNG, or damaged");
@@ -175,6 +175,13 @@ TEST_F(MineralInput, NeedsWhatBelongsTogether)
           "the pixel in row 1, column 1 has the colour #090909, which no mineral has; the table has #ff0000 quartz, "
           "#00ff00 mica");
   refuses("set Table = colours.csv\n set Map = p.csv", "names \"biotite\", which is not in the table of minerals");
+  refuses("set Table = m.csv\n set Grains = smooth boundaries", "says nothing of the bonds at the boundaries");
+  refuses("set Table = m.csv\n set Grains = rigid\nend\nsubsection Specimen\n set Dimension = 3",
+          "rigid mineral grains are in the plane");
+  refuses(
+    "set Table = colours.csv\n set Map = red.png\n set Pixel size = 0.5 mm\n set Grains = smooth boundaries\nend\n"
+    "subsection Smooth joint\n set Tensile strength = 1 MPa\n set Cohesion = 1 MPa",
+    "smooth boundaries are planes between Voronoi cells");
   refuses("set Table = m.csv\nend\nsubsection Clumps\n set Diameter = 5 mm", "excludes Clumps/Diameter");
 }
 } // namespace
