@@ -23,6 +23,7 @@ studies=("$@")
   flawed-granite/{flaw,closed-flaw,flaw-length}
   toughness/{toughness,large-plate,softening,softening-strength,in-plane,in-space}
   emission-beishan/{granite,spheres,windows}
+  granite-minerals/{minerals,texture,scaled}
   direct-shear/{smooth-plane,intact,stiff-rock}
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,kinematics,kinematics-free-sides,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
   multiscale-beishan/{beishan,demo}

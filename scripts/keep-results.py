@@ -60,6 +60,7 @@ ALSO = {  # what the pages of an example read of its tests besides; the longest 
     "flawed-granite/": "crack_initiation_stress_Pa first_cracks test n_of_first_ten n_of_first_ten_in_tension "
     "first_stress_Pa joining segments_1 segments_2 segments_4 stress_Pa strain_over_strain_at_peak n_faces n_tension_cracks "
     "n_shear_cracks",
+    "granite-minerals/": f"{ELASTIC} {CRACKS} shear_share_at_peak boundary_crack_share_at_peak",
     "multiscale-": f"{SAMPLE} crack_initiation_stress_lateral_Pa strain_at_end stress_at_end_Pa largest_fall "
     "stress_before_Pa stress_after_Pa n_cracks boundary stress_at_broken_share_Pa after_peak "
     "work_after_peak_J_per_m2 stress_at_end_over_peak band_to_axis_deg",

@@ -135,7 +135,8 @@ public:
   /// Width, (depth,) height [m]; [dimension].
   std::vector<double> size() const;
   bool is_periodic() const;
-  Table grains() const; ///< x_m, y_m, (z_m,) radius_m
+  /// x_m, y_m, (z_m,) radius_m; of a rock of minerals also the numbers mineral and mineral_grain, from 1.
+  Table grains() const;
   Table joints() const; ///< grain_1, grain_2, as rows of grains(), and the installation gap gap_m
   /// Counts, porosity, coordination, installation gap: the name as in summary.json, and the value.
   std::vector<std::pair<std::string, double>> report() const;

@@ -57,7 +57,7 @@ class Specimen:
 
     @property
     def grains(self) -> pandas.DataFrame:
-        """Positions and radii [m], a row a grain."""
+        """Positions and radii [m], a row a grain; of a rock of minerals the numbers of its `mineral` and `mineral_grain` too."""
         return pandas.DataFrame(self.core.grains())
 
     @property

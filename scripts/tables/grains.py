@@ -253,6 +253,24 @@ def emission_windows(cells):
             number(test["b_positive"], 2)]
 
 
+# A granite of minerals: study, number of the variant
+
+MINERAL_ROCKS = {"one mineral": ("minerals", 1), "four minerals of their own stiffness": ("minerals", 2),
+                 "biotite of 40 % of the strength too": ("minerals", 3), "boundaries of 70 % too": ("minerals", 4),
+                 "boundaries of 40 % instead": ("minerals", 5), "the picture, boundaries of 70 %": ("texture", None),
+                 "one mineral, strengths scaled": ("scaled", None)}
+
+
+def granite_minerals(cells):
+    study, n = MINERAL_ROCKS[cells[0]]
+    pulled, pressed = (of(f"granite-minerals/{study}", kind, n=n) for kind in (PULLED, PRESSED))
+    initiation, strength = values(pressed, INITIATION), values(pressed)
+    return [None, shown(values(pulled), 2), shown(initiation, 0), shown(strength, 0),
+            number(statistics.mean(initiation) / statistics.mean(strength), 2),
+            shown(values(pressed, "boundary_crack_share_at_peak", 0.01), 0),
+            shown(values(pressed, "shear_share_at_peak", 0.01), 1)]
+
+
 def stiff_rock(cells):
     row = [None]
     for stress in (2, 5):
@@ -461,6 +479,7 @@ TABLES = {
     "emission stresses": emission_stresses,
     "emission up to the peak": emission_to_peak,
     "emission windows": emission_windows,
+    "granite of minerals": granite_minerals,
     "direct shear": direct_shear,
     "direct shear lines": shear_lines,
     "direct shear in stiff rock": stiff_rock,

@@ -88,6 +88,15 @@ class Specimens(unittest.TestCase):
         self.assertEqual(list(body.grains), ["x_m", "y_m", "z_m", "radius_m"])
         self.assertGreater(len(body.joints), len(body.grains))
 
+    def test_know_their_minerals(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = Path(folder) / "minerals.csv"
+            table.write_text("mineral,share [%],size [mm]\nquartz,70,5\nmica,30,5\n")
+            grains = feldspar.Specimen(feldspar.Input(ROCK, {"Minerals/Table": str(table)})).grains
+        volume = (grains.radius_m**2).groupby(grains.mineral).sum()
+        self.assertAlmostEqual(volume[2] / volume.sum(), 0.3, delta=0.03)  # of a few grains
+        self.assertTrue((grains.groupby("mineral_grain").mineral.nunique() == 1).all())
+
     def test_refuses_files_that_are_none(self):
         self.assertIn("no_such", error_of(lambda: feldspar.Specimen.load("no_such.h5")))
         self.assertIn("bodies_test.py", error_of(lambda: feldspar.Specimen.load(__file__)))
