@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-/// What happens in each mineral of a rock.
+/// Stress and cracks in each mineral of a rock.
 namespace feldspar
 {
 struct MineralMeans

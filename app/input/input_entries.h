@@ -10,7 +10,7 @@ namespace feldspar
 {
 std::vector<Entry<Input>> test_list_entries();
 Entry<SpecimenParameters> sieve_curve_entry();
-/// Of section Minerals: those that name files, and the others.
+/// The entries of section Minerals that name files, and the others.
 std::vector<Entry<Input>> mineral_file_entries();
 std::vector<Entry<MineralParameters>> mineral_entries();
 Entry<Input> checkpoint_entry();

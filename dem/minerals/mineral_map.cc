@@ -40,10 +40,11 @@ void check_cover(const MineralParameters& wanted, const std::array<double, 3>& s
   for (const std::size_t axis : {0, 2, 1})
     if (const bool is_shown = axis != 1 || wanted.n_slices > 1;
         is_shown && shown[axis] < (1.0 - round_off) * size[axis])
-      refuse(fmt::format("{} shows {:g} mm of the {}, and the specimen has {:g} mm; give a larger map, a larger Pixel "
-                         "size{} or a smaller specimen",
-                         wanted.map_file, 1e3 * shown[axis], std::array{"width", "depth", "height"}[axis],
-                         1e3 * size[axis], axis == 1 ? ", a larger Slice distance" : ""));
+      refuse(
+        fmt::format("{} shows {:g} mm of the {}, and the specimen has {:g} mm; give a larger map, larger pixels{} or a "
+                    "smaller specimen",
+                    wanted.map_file, 1e3 * shown[axis], std::array{"width", "depth", "height"}[axis], 1e3 * size[axis],
+                    axis == 1 ? ", slices further apart" : ""));
 }
 
 /// The mineral at a point.
@@ -57,7 +58,7 @@ MineralAt<dim> mineral_at_cell(const MineralParameters& wanted, const std::vecto
   const std::size_t height = minerals.size() / width / wanted.n_slices;
   const double pixel = *wanted.pixel_size;
   return [=, &wanted, &minerals](const Vector<dim>& point) {
-    // What sticks out of the picture is as its edge.
+    // A grain that sticks out of the picture meets its edge there.
     const auto cell = [](const double x, const double step, const std::size_t n) {
       return std::size_t(std::clamp(std::floor(x / step), 0.0, double(n - 1)));
     };
@@ -158,7 +159,7 @@ std::vector<std::uint32_t> minerals_of_grains(const Specimen<dim>& specimen, con
     minerals_of_map(wanted, {specimen.size[0], dim == 3 ? specimen.size[1] : 0.0, specimen.size[dim - 1]});
   const MineralAt<dim> mineral_at =
     map.colour.empty() ? mineral_at_point<dim>(map, minerals) : mineral_at_cell<dim>(wanted, minerals);
-  // As fine as the pixels, within reason.
+  // The points are as fine as the pixels, within reason.
   constexpr double fewest = dim == 2 ? 6.0 : 4.0, most = dim == 2 ? 40.0 : 12.0;
   const double wished = map.colour.empty() ? fewest : specimen.report.mean_radius / *wanted.pixel_size;
   const auto points = points_in_ball<dim>(int(std::ceil(std::clamp(wished, fewest, most))));

@@ -141,7 +141,7 @@ void scale_masses(Specimen<dim>& specimen, const std::vector<Mineral>& minerals)
   specimen.bulk_density *= std::accumulate(grains.mass.begin(), grains.mass.end(), 0.0) / before;
 }
 
-/// What a rule makes of two ratios where none is given.
+/// The stiffness ratio of two in series.
 double series(const double one, const double two) { return one == two ? one : 2.0 * one * two / (one + two); }
 } // namespace
 

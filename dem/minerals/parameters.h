@@ -52,7 +52,7 @@ struct MineralMap
   std::vector<std::string> mineral_of_point; ///< by its name
 };
 
-/// What mineral grains are made of, and how they meet.
+/// The form of mineral grains, and how they meet.
 enum class MineralGrainForm
 {
   breakable,         ///< joints of the law inside and between

@@ -90,26 +90,35 @@ TEST(Minerals, OfATestAreInItsFiles)
     EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
-/// K and G of a periodic volume lie between Hashin and Shtrikman's bounds, those between Reuss's and Voigt's.
-TEST(Minerals, OfAVolumeStandBetweenTheirBounds)
+/// K and G of a periodic volume lie between Hashin and Shtrikman's bounds in space and between Reuss's and Voigt's in the plane,
+/// where a volume of so few mineral grains is not isotropic enough for the narrow ones.
+void expect_within_bounds(const std::string& settings, const std::string& lower, const std::string& upper)
 {
   const TemporaryFolder folder;
   write_rock(folder);
-  ASSERT_EQ(
-    run_feldspar(folder.path(),
-                 "rve rock.prm --output rve --quiet --set 'Specimen/Shape = periodic' --set "
-                 "'Specimen/Height = 14 mm' --set 'Strain path/Direction = 0, 1, 0' --set 'Strain path/Size = 1e-6'")
-      .exit_code,
-    0);
+  ASSERT_EQ(run_feldspar(folder.path(), "rve rock.prm --output rve --quiet --set 'Specimen/Shape = periodic' --set "
+                                        "'Strain path/Size = 1e-6' " +
+                                          settings)
+              .exit_code,
+            0);
   const auto rve = nlohmann::json::parse(content(folder.path() / "rve/summary.json"))["rves"][0];
   for (const char* const modulus : {"bulk_modulus_Pa", "shear_modulus_Pa"})
     {
-      const auto bound = [&](const char* const name) { return rve["mixture_bounds"][name][modulus].get<double>(); };
+      const auto bound = [&](const std::string& name) { return rve["mixture_bounds"][name][modulus].get<double>(); };
       EXPECT_LT(bound("reuss"), bound("hashin_shtrikman_lower"));
-      EXPECT_LT(bound("hashin_shtrikman_lower"), rve[modulus].get<double>()) << modulus;
-      EXPECT_LT(rve[modulus].get<double>(), bound("hashin_shtrikman_upper")) << modulus;
+      EXPECT_LT(bound(lower), rve[modulus].get<double>()) << modulus;
+      EXPECT_LT(rve[modulus].get<double>(), bound(upper)) << modulus;
       EXPECT_LT(bound("hashin_shtrikman_upper"), bound("voigt"));
     }
+}
+
+TEST(Minerals, OfAVolumeStandBetweenTheirBounds)
+{
+  expect_within_bounds("--set 'Specimen/Height = 14 mm' --set 'Strain path/Direction = 0, 1, 0'", "reuss", "voigt");
+  expect_within_bounds(
+    "--set 'Specimen/Dimension = 3' --set 'Specimen/Width = 10 mm' --set 'Specimen/Height = 10 mm' --set "
+    "'Specimen/Minimum radius = 0.4 mm' --set 'Strain path/Direction = 0, 0, 1, 0, 0, 0'",
+    "hashin_shtrikman_lower", "hashin_shtrikman_upper");
 }
 } // namespace
 } // namespace feldspar::tests

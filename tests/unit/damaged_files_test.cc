@@ -479,7 +479,7 @@ TEST(DamagedFiles, FieldsOfSamplesAreRefused)
     }
   folder.write("a.xdmf", std::string(index).replace(index.find("\"5\""), 3, "\"1e300\""));
   EXPECT_NE(refusal(read), "");
-  // What it names is shown as text, and nothing outside of the folder is opened.
+  // The name in it is shown as text, and nothing outside of the folder is opened.
   for (const auto& [name, shown] : {std::pair("../a.h5", "\"../a.h5\""), std::pair("a\xa0.h5", "\"a\\xa0.h5\"")})
     {
       folder.write("a.xdmf", std::string(index).replace(index.find("a.h5"), 4, name));

@@ -325,9 +325,11 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("stages.csv", "axial_strain\n0.01\n");
   folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n");
   const Input input = read_input(folder.write("everything.prm", everything));
-  // Other joint laws exclude flat joints, clumps mineral grains, and Sample/Rocks a weak seed; they have tests of their own.
+  // Other joint laws exclude flat joints, clumps and minerals exclude mineral grains, and Sample/Rocks a weak seed; they have tests
+  // of their own, with the boundary strength that a calibration seeks.
   EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size() +
-              entry_names("Softening flat joint").size() + entry_names("Clumps").size() + 1,
+              entry_names("Softening flat joint").size() + entry_names("Clumps").size() +
+              entry_names("Minerals").size() + 2,
             parameter_table().size());
 
   EXPECT_EQ(input.calibration.targets, (std::vector<std::string>{"tensile_strength", "youngs_modulus"}));
@@ -929,11 +931,11 @@ end
   EXPECT_EQ(both[0].input.flat_joint.installation_gap_ratio, 0.05);
   EXPECT_EQ(both[1].input.parallel_bond.bond_cohesion, 70e6);
   EXPECT_EQ(both[1].input.parallel_bond.coordination_number, std::nullopt);
-  // Each is told with its own section alone, and without smooth joints and the form of clumps, which neither has.
+  // Each is told with its own section alone, and without smooth joints, minerals and the form of clumps, which neither has.
   for (const Parameter& parameter : parameter_table())
     {
       if (parameter.section == "Smooth joint" || parameter.section == "Softening flat joint" ||
-          parameter.name() == "Clumps/Form")
+          parameter.name() == "Clumps/Form" || (parameter.section == "Minerals" && parameter.entry != "Table"))
         {
           EXPECT_FALSE(has_use_for(both[0].input, parameter) || has_use_for(both[1].input, parameter));
           continue;

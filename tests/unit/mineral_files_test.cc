@@ -161,6 +161,18 @@ TEST_F(MineralInput, NeedsWhatBelongsTogether)
   png<std::uint8_t>(folder.path() / "grey.png", PNG_FORMAT_RGB, 3, {9, 9, 9}, 100, 200);
   EXPECT_EQ(read("set Table = m.csv").minerals.minerals.size(), 2u);
   EXPECT_EQ(read("set Table = colours.csv\n set Map = red.png\n set Pixel size = 0.5 mm").minerals.map->width, 100u);
+  const MineralParameters all =
+    read(
+      "set Table = colours.csv\n set Map = red.png\n set Pixel size = 1 mm\n set Slices = 2\n set Slice distance = 3 mm\n"
+      "set Boundary strength = 0.7\n set Grains = rigid")
+      .minerals;
+  EXPECT_EQ(all.n_slices, 2u);
+  EXPECT_DOUBLE_EQ(*all.pixel_size, 1e-3);
+  EXPECT_DOUBLE_EQ(*all.slice_distance, 3e-3);
+  EXPECT_EQ(all.boundary_strength, 0.7);
+  EXPECT_EQ(all.form, MineralGrainForm::rigid);
+  const Input sought = read("set Table = m.csv\nend\nsubsection Calibration\n set Boundary strength = 0.2, 1");
+  EXPECT_EQ(sought.calibration.boundary_strength->lower, 0.2);
   refuses("set Table = short.csv", "the shares add up to 40 %; they must be 100 % together");
   refuses("set Table = colours.csv", "quartz needs a share above 0 and a size above 0, for there is no Map");
   refuses("set Table = m.csv\n set Map = red.png\n set Pixel size = 0.5 mm",

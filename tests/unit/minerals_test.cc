@@ -78,7 +78,7 @@ TEST(Minerals, OfOneKindLeaveEveryBitOfTheRock)
   EXPECT_EQ(std::set<std::uint32_t>(with.mineral.begin(), with.mineral.end()).size(), 3u);
 }
 
-// By volume, to half of the largest grain: no change of a grain to the cell beside would bring a share nearer.
+// Shares of the volume are met to half of the largest grain: no change of a grain to the cell beside would bring one nearer.
 template <int dim>
 void expect_shares(const Specimen<dim>& specimen, const MineralParameters& wanted)
 {
@@ -119,7 +119,7 @@ TEST(Minerals, HaveTheirSharesInSpaceAndInAPeriodicCell)
   EXPECT_TRUE(crosses);
 }
 
-// Of cells with the aspect ratio r the second moments along and across differ by r² where nothing cuts them; sides and
+// The second moments of cells with the aspect ratio r along and across differ by r² where nothing cuts them; sides and
 // neighbours leave more than half of the logarithm.
 TEST(Minerals, LieAlongTheirAngle)
 {

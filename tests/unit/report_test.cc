@@ -2002,8 +2002,9 @@ TEST(ResultFolder, NamesTheGroupsOfGrainsForWhatTheyAre)
     const std::string table = content(folder.path() / ("grains/" + test + ".csv"));
     return table.substr(0, table.find('\n'));
   };
-  EXPECT_TRUE(header(minerals.name).ends_with(",fragment,mineral_grain,mean_stress_Pa")) << header(minerals.name);
-  EXPECT_TRUE(header(clumps.name).ends_with(",fragment,clump,mean_stress_Pa")) << header(clumps.name);
+  EXPECT_TRUE(header(minerals.name).ends_with(",fragment,mineral_grain,mean_stress_Pa,mineral"))
+    << header(minerals.name);
+  EXPECT_TRUE(header(clumps.name).ends_with(",fragment,clump,mean_stress_Pa,mineral")) << header(clumps.name);
   const auto expect_groups = [&] {
     const auto runs = read_result_folder(folder.path(), test_kinds());
     for (const FinishedTest& test : runs.at(0).tests)
@@ -2022,10 +2023,10 @@ TEST(ResultFolder, TakesNoCountThatIsNone)
   write_result_folder({}, {compression(3)}, {}, folder.path());
   const auto file = folder.path() / "grains/uniaxial_compression_seed_3.csv";
   const std::string table = content(file);
-  ASSERT_TRUE(table.ends_with(",1,0,0\n")) << table; // the last grain's fragment, and no mineral grain
+  ASSERT_TRUE(table.ends_with(",1,0,0,0\n")) << table; // the last grain's fragment, and no mineral grain
   for (const char* const number : {"1e300", "-1", "nan", "inf", "0.5", "4294967296"})
     {
-      folder.write("grains/uniaxial_compression_seed_3.csv", table.substr(0, table.size() - 6) + number + ",0,0\n");
+      folder.write("grains/uniaxial_compression_seed_3.csv", table.substr(0, table.size() - 8) + number + ",0,0,0\n");
       const auto all = read_result_folder(folder.path(), test_kinds());
       ASSERT_EQ(all.at(0).problems.size(), 1u) << number;
       EXPECT_NE(all[0].problems[0].find(fmt::format(".csv:3: \"{}\" is no count", number)), std::string::npos)
