@@ -4,6 +4,7 @@
 #
 #   scripts/try-in-bare-debian.sh            in a temporary folder, which is removed in the end
 #   scripts/try-in-bare-debian.sh FOLDER     in this one, which is absent or empty before and stays
+#   scripts/try-in-bare-debian.sh FILE.deb [FOLDER]   of a reader who has this package and no source
 #
 # A Debian 12 of its smallest packages and sudo gets a clone of what is committed here, and a user. This user runs the
 # commands of README.md that install, `feldspar version`, and each page of docs/tutorials in a folder of its own, with
@@ -11,7 +12,8 @@
 # File systems mounted inside go with the commands that need them.
 #
 # Needs root, Debian's mmdebstrap and git, 5 GB of disk, and a host whose /etc/apt reaches the packages of Debian 12: the
-# trial takes it over.
+# trial takes it over. With a package, what apt draws in runs the command and the module, and the programs of
+# examples/library are built.
 set -euo pipefail
 usage=$(sed -n '2,/^set/s/^# \?//p' "$0")
 tree=$(git -C "$(dirname "${BASH_SOURCE[0]}")" rev-parse --show-toplevel)
@@ -31,6 +33,11 @@ case "${1:-}" in
 esac
 ((EUID == 0)) || die "only root can make a Debian inside of this one"
 command -v mmdebstrap >/dev/null || die "it needs the package mmdebstrap"
+package=
+if [[ ${1:-} == *.deb ]]; then
+  package=$(realpath --canonicalize-existing "$1")
+  shift
+fi
 if (($#)); then
   [[ -z $(ls -A "$1" 2>/dev/null) ]] || die "$1 is not empty"
   mkdir -p "$1"
@@ -106,7 +113,31 @@ work_through()
   { echo "mkdir '$name'; cd '$name'" && as_script "$1"; } | inside reader
 }
 
+try_package()
+{
+  cp "$package" "$root/tmp/package.deb"
+  cp --recursive "$tree"/examples/{library,first-run/granite.prm} "$tree"/scripts/bits/multiscale-plane.prm "$root/home/reader"
+  stage "apt" inside root <<<"apt-get update --quiet; DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes /tmp/package.deb"
+  stage "the command" inside reader <<'END'
+feldspar version
+feldspar lab granite.prm --output granite --quiet --set 'Specimen/Width = 15 mm' --set 'Specimen/Height = 30 mm'
+feldspar multiscale multiscale-plane.prm --output multiscale --quiet --set 'Seeds/Seeds = 1'
+ls granite multiscale
+END
+  stage "the Python module" inside reader <<<"python3 -m feldspar.check"
+  stage "compilers" inside root <<<"DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes --no-install-recommends g++ cmake libdeal.ii-dev"
+  stage "the programs of examples/library" inside reader <<'END'
+cmake -S library -B build
+cmake --build build
+for program in uniaxial_compression one_point notched_plate; do build/$program | tail -n 2; done
+END
+}
+
 stage "a bare Debian 12" make_root
+if [[ $package ]]; then
+  try_package
+  exit
+fi
 clone=$root/home/reader/feldspar
 stage "a clone" clone
 while read -r command; do
