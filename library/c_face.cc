@@ -1,6 +1,8 @@
 #define FELDSPAR_IMPLEMENTS_FACE
 #include <feldspar/feldspar.h>
+#pragma GCC visibility push(default)
 #include <feldspar/feldspar_c.h>
+#pragma GCC visibility pop
 
 #include <span>
 #include <string>
