@@ -21,7 +21,7 @@ build_packages=(
   g++ cmake ninja-build git ca-certificates
   libeigen3-dev libtbb-dev libfmt-dev libhdf5-openmpi-dev libhdf5-dev
   libdeal.ii-dev petsc-dev
-  libceres-dev libopenturns-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libpugixml-dev libpng-dev libkainjow-mustache-dev
+  libceres-dev libopenturns-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libpugixml-dev libpng-dev libboost-dev libkainjow-mustache-dev
   gnuplot-nox fonts-dejavu-core
 )
 python_packages=(pybind11-dev python3-dev python3-numpy python3-pandas python3-matplotlib)

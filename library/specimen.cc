@@ -68,7 +68,8 @@ Table Specimen::grains() const
         table.push_back({fmt::format("{}_m", "xyz"[c]), body.grains.position[c]});
       table.push_back({"radius_m", body.grains.radius});
       if (!body.mineral.empty())
-        for (const auto& [name, numbers] : {std::pair("mineral", &body.mineral), std::pair("mineral_grain", &body.groups)})
+        for (const auto& [name, numbers] :
+             {std::pair("mineral", &body.mineral), std::pair("mineral_grain", &body.groups)})
           {
             auto& column = table.emplace_back(Column{name, {}, true});
             for (const std::uint32_t number : *numbers)

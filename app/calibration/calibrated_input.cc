@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <numbers>
 #include <sstream>
+#include <string>
 #include <string_view>
 
 namespace feldspar::calibration
@@ -67,6 +69,9 @@ Input with_parameters(const Input& input, const MicroParameters& parameters)
   joint.bond_cohesion = without_round_off(parameters.cohesion_ratio * parameters.bond_tensile_strength);
   joint.bond_cohesion_deviation = kept(before.bond_cohesion, before.bond_cohesion_deviation, joint.bond_cohesion);
   joint.bond_friction_angle = without_round_off(parameters.bond_friction_angle / degree) * degree;
+  for (std::string* const file : {&result.minerals.table, &result.minerals.boundaries_file}) // read from another folder
+    if (!file->empty())
+      *file = std::filesystem::canonical(*file).string();
   result.minerals.boundary_strength = without_round_off(parameters.boundary_strength);
   if (parameters.gap)
     {

@@ -8,6 +8,7 @@
 #include "coupling/network/network.h"
 #include "coupling/rve/homogenisation.h"
 #include "dem/genesis/genesis.h"
+#include "dem/minerals/minerals.h"
 #include "runs/jobs.h"
 
 #include <fmt/format.h>
@@ -106,6 +107,7 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
         specimen.joints = {};
         specimen.particle_contact = order.rock.particle_contact;
         install_joints(specimen, order.rock.flat_joint);
+        put_in_minerals(specimen, order.rock.minerals);
         const IsotropicConstants of_cell = isotropic_constants<dim>(Network<dim>(specimen).intact_stiffness());
         mean.modulus_ratio += of_cell.youngs_modulus / order.rock.flat_joint.modulus / double(n_packings);
         mean.poissons_ratio += of_cell.poissons_ratio / double(n_packings);

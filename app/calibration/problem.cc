@@ -84,6 +84,10 @@ void check(const Input& input)
     refuse(fmt::format("Specimen/Joint law = {}: only the flat joint is calibrated", specimen.joint_law));
   if (!specimen.specimen_file.empty() || !specimen.packing_file.empty())
     refuse("Specimen: a calibration makes its own packings; name no Packing file and no Specimen file");
+  if (input.minerals.form_of_rock() != MineralGrainForm::breakable)
+    refuse("Minerals/Grains: a calibration is of breakable mineral grains; set Grains = breakable");
+  if (input.minerals.map)
+    refuse("Minerals/Map: shows one body, and a calibration packs several; give shares and sizes in Minerals/Table");
   if (input.clumps.diameter)
     refuse("Clumps: a calibration is of grains that move each for itself; take the section out");
   if (!input.flaws.all().empty())

@@ -1,6 +1,5 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
-#include "app/input/joint_sections.h"
 #include "app/input/strain_path.h"
 #include "app/programme/checks.h"
 #include "app/programme/reference_body.h"
@@ -13,6 +12,7 @@
 #include "app/run/run_record.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/rve_file.h"
+#include "dem/minerals/minerals.h"
 #include "runs/paths.h"
 #include "runs/share_out.h"
 
@@ -105,17 +105,14 @@ void share_out_paths(const Run& run, Progress& progress)
   });
 }
 
-/// The bounds on the stiffness of a rock of minerals, each of which alone is as stiff as the same packing without minerals, times
-/// its ratio; none of another rock.
+/// The bounds on the stiffness of a rock of minerals, each of which alone is as stiff as the same packing without their contrast,
+/// times its ratio; none of another rock.
 template <int dim>
-std::optional<MixtureBounds> mixture_bounds_of(const Input& input, const std::uint64_t seed,
-                                               const Specimen<dim>& specimen)
+std::optional<MixtureBounds> mixture_bounds_of(const Input& input, const Specimen<dim>& specimen)
 {
   if (input.minerals.minerals.empty())
     return std::nullopt;
-  RockParameters of_one_kind = rock_of(input);
-  of_one_kind.minerals = {};
-  const Network<dim> network(make_rock<dim>(of_one_kind, seed, end_if_interrupted, end_if_interrupted));
+  const Network<dim> network(with_one_stiffness(specimen, input.minerals));
   const auto constants = isotropic_constants<dim>(network.intact_stiffness());
   std::vector<PhaseModuli> phases;
   const auto shares = shares_of_minerals(specimen);
@@ -146,7 +143,7 @@ RunEnd strain_alone(const Run& run, Progress& progress)
   for (std::size_t k = 0; k < rves.size(); ++k)
     {
       const SpecimenOrder& order = plan.orders[paths[k].specimen];
-      rves[k].mixture = mixture_bounds_of(plan.input_of(order), order.seed, specimens[paths[k].specimen]);
+      rves[k].mixture = mixture_bounds_of(plan.input_of(order), specimens[paths[k].specimen]);
     }
 
   // Report.

@@ -17,6 +17,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -84,7 +85,7 @@ std::string refusal_of(const std::string_view section, const std::set<std::strin
   if (section == "Clumps")
     return "has no effect: Clumps/Diameter is none";
   if (section == "Minerals")
-    return "has no effect: Minerals/Table is none";
+    return "has no effect: Minerals/Table is none, or it is of a picture and Minerals/Map is none (slices: of space alone)";
   return fmt::format("is of another joint law; Specimen/Joint law is {}", fmt::join(laws, " or "));
 }
 
@@ -140,7 +141,7 @@ std::optional<std::pair<const char*, const char*>> grain_based_entry(const Input
 {
   if (input.mineral_grains.mean_size)
     return std::pair("Mineral grains", "Mean size");
-  if (input.minerals.form == MineralGrainForm::smooth_boundaries)
+  if (input.minerals.form_of_rock() == MineralGrainForm::smooth_boundaries)
     return std::pair("Minerals", "Grains");
   return std::nullopt;
 }
@@ -196,8 +197,7 @@ void check_minerals(const Input& input, const GivenEntries& values)
 {
   const MineralParameters& wanted = input.minerals;
   if (wanted.minerals.empty() && input.calibration.boundary_strength)
-    throw values.error("Calibration", "Boundary strength",
-                       "is of rocks of minerals; name their table by Minerals/Table");
+    throw values.error("Calibration", "Boundary strength", "needs minerals; set Minerals/Table");
   if (wanted.minerals.empty())
     return;
   const auto refuse = [&](const char* entry, const std::string& why) { throw values.error("Minerals", entry, why); };
@@ -208,17 +208,19 @@ void check_minerals(const Input& input, const GivenEntries& values)
   if (wanted.map)
     {
       if (wanted.form == MineralGrainForm::smooth_boundaries)
-        refuse("Grains",
-               "smooth boundaries are planes between Voronoi cells, and a Map has any; set Grains = breakable");
+        refuse(
+          "Grains",
+          "smooth boundaries are planes between Voronoi cells, and the mineral grains of a Map have any shape; set "
+          "Grains = breakable");
       if (std::ranges::any_of(wanted.minerals, [](const Mineral& one) { return one.share || one.size > 0.0; }))
         refuse("Table", "has shares or sizes, which the map gives; leave these columns out, or the map");
       const auto& [width, height] = std::pair(input.specimen.width, input.specimen.height);
-      minerals_of_map(wanted, {width, input.specimen.dimension == 3 ? width : 0.0, height});
+      // A body out of a file has a size of its own, which is checked when the minerals are put in.
+      const bool is_of_file = !input.specimen.specimen_file.empty() || !input.specimen.packing_file.empty();
+      minerals_of_map(wanted, is_of_file ? std::array{0.0, 0.0, 0.0}
+                                         : std::array{width, input.specimen.dimension == 3 ? width : 0.0, height});
       return;
     }
-  for (const char* const entry : {"Pixel size", "Slices", "Slice distance"})
-    if (values.has("Minerals", entry))
-      refuse(entry, "is of a picture; name it by Map");
   double sum = 0.0;
   for (const Mineral& one : wanted.minerals)
     {
@@ -233,7 +235,7 @@ void check_minerals(const Input& input, const GivenEntries& values)
 
 void check_clumps(const Input& input, const GivenEntries& values)
 {
-  const bool has_rigid_minerals = input.minerals.form == MineralGrainForm::rigid;
+  const bool has_rigid_minerals = input.minerals.form_of_rock() == MineralGrainForm::rigid;
   if (!input.clumps.diameter && !has_rigid_minerals)
     return;
   if (has_rigid_minerals && (input.specimen.dimension != 2 || input.specimen.shape != BodyShape::box ||

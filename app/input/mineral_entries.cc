@@ -48,7 +48,7 @@ std::vector<Entry<Input>> mineral_file_entries()
                of_table),
     file_entry("Boundaries", &P::boundaries_file, &P::boundaries, read_mineral_boundaries,
                "CSV of the joints between mineral grains of two minerals, or of one: mineral_1, mineral_2 and the "
-               "same ratios. What is not given has the two stiffnesses in series and the lower of each other ratio",
+               "same ratios. An empty cell is the two stiffnesses in series, or the lower of both other ratios",
                of_rock),
     file_entry("Map", &P::map_file, &P::map, read_mineral_map,
                "picture of the minerals over the specimen, a PNG of 8 bits with the colours of the table, from its "

@@ -195,7 +195,7 @@ const Demand* unmet_demand(const Input& input, const Parameter& parameter)
 bool has_smooth_joints(const Input& input)
 {
   const auto shapes = input.flaws.all();
-  return input.mineral_grains.mean_size || input.minerals.form == MineralGrainForm::smooth_boundaries ||
+  return input.mineral_grains.mean_size || input.minerals.form_of_rock() == MineralGrainForm::smooth_boundaries ||
          std::any_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return smooth_sides(shape) != nullptr; });
 }
 
@@ -206,6 +206,10 @@ bool has_use_for(const Input& input, const Parameter& parameter)
   if (parameter.section == "Clumps" && parameter.entry == "Form" && !input.clumps.diameter)
     return false;
   if (parameter.section == "Minerals" && parameter.entry != "Table" && input.minerals.minerals.empty())
+    return false;
+  const bool is_of_slices = parameter.entry == "Slices" || parameter.entry == "Slice distance";
+  if (parameter.section == "Minerals" && (parameter.entry == "Pixel size" || is_of_slices) &&
+      (!input.minerals.has_picture() || (is_of_slices && input.specimen.dimension != 3)))
     return false;
   const auto laws = JointLaws::names();
   return std::none_of(laws.begin(), laws.end(), [&](const std::string_view law) {

@@ -85,7 +85,7 @@ void check_no_groups(const Input& input)
     if (const std::string value = find_parameter(section, entry)->write(input); value != none)
       refuse(
         fmt::format("{}/{} = {}: a representative volume takes none; set {} = none", section, entry, value, entry));
-  if (input.minerals.form != MineralGrainForm::breakable)
+  if (input.minerals.form_of_rock() != MineralGrainForm::breakable)
     refuse(fmt::format("Minerals/Grains = {}: a representative volume takes breakable ones; set Grains = breakable",
                        find_parameter("Minerals/Grains")->write(input)));
 }

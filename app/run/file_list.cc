@@ -182,8 +182,8 @@ bool Places::include(const std::filesystem::path& relative) const
 }
 
 const Places places_of_runs{{record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv",
-                             "emission.csv", "steps.csv", "reference.json", page_name, film_name, "log.txt",
-                             "calibration.json", "design.csv", "posterior.csv", "best.prm", "nearest.prm"},
+                             "emission.csv", "minerals.csv", "steps.csv", "reference.json", page_name, film_name,
+                             "log.txt", "calibration.json", "design.csv", "posterior.csv", "best.prm", "nearest.prm"},
                             {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
                              "figures", "tables", "quakeml", "calibration", "volumes" /* of 0.2.0, now rves */},
                             true};

@@ -35,6 +35,8 @@ void Dynamics<dim>::transfer(Archive& archive)
   const auto pass = [&](const std::string& name, auto& values) { transfer_numbers(archive, name, values); };
   joints.visit_per_joint(pass);
   joints.visit_per_segment(pass);
+  if (!body.minerals.empty())
+    pass("further_friction", joints.further_friction);
   const auto pass_all = [&](const std::string& name, auto& components) {
     for (std::size_t c = 0; c < components.size(); ++c)
       pass(name + "_" + "xyz"[c], components[c]);

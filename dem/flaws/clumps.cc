@@ -138,6 +138,9 @@ void make_minerals_rigid(Specimen<dim>& specimen)
   std::iota(order.begin(), order.end(), 0u);
   make_rigid(specimen, order,
              [&](const std::uint32_t one, const std::uint32_t two) { return groups[one] == groups[two]; });
+  if (specimen.joints.size() == 0)
+    throw ParameterError(parameter_id<&MineralParameters::form>(),
+                         "rigid leaves no joint between two mineral grains; make them smaller, or breakable");
 }
 
 template void put_in_clumps<2>(Specimen<2>&, const ClumpParameters&);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 namespace feldspar
@@ -78,9 +79,12 @@ void join_minerals_smoothly(Specimen<dim>& specimen, const MineralParameters& wa
   for (std::size_t k = 0; k < n; ++k)
     if (volume[k] > 0.0)
       centres[k] /= volume[k];
+  std::set<GrainPair> of_flaws;
+  for (const SmoothJoint<dim>& joint : specimen.smooth_joints)
+    of_flaws.insert(joint.ends());
   join_groups_smoothly(specimen, centres, boundary);
   for (SmoothJoint<dim>& joint : specimen.smooth_joints)
-    if (specimen.groups[joint.grain_1] != specimen.groups[joint.grain_2]) // one of a flaw may lie in a mineral grain
+    if (!of_flaws.contains(joint.ends()))
       {
         const JointRatios ratios =
           boundary_ratios(wanted, specimen.mineral[joint.grain_1], specimen.mineral[joint.grain_2]);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace feldspar
 {
@@ -55,7 +54,8 @@ std::size_t number_of_cells(const Specimen<dim>& specimen, const CellKind& kind,
   const std::size_t least_number = is_alone ? 2 : 1;
   const double least = 4.0 * specimen.report.mean_radius;
   const auto refuse = [&](const std::string& why) {
-    throw ParameterError(size, fmt::format("{:g} mm", 1e3 * kind.size), why);
+    throw ParameterError(size, fmt::format("{:g} mm{}{}", 1e3 * kind.size, kind.of.empty() ? "" : " of ", kind.of),
+                         why);
   };
   if (n < least_number)
     {

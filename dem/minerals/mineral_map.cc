@@ -47,6 +47,27 @@ void check_cover(const MineralParameters& wanted, const std::array<double, 3>& s
                     axis == 1 ? ", slices further apart" : ""));
 }
 
+/// Points in another unit, or of another place, would all be on one side of the body: they must span half of it at least.
+void check_span(const MineralParameters& wanted, const std::array<double, 3>& size)
+{
+  const bool in_space = size[1] > 0.0;
+  for (const std::size_t axis : {0, 1, 2})
+    {
+      const double extent = in_space ? size[axis] : std::array{size[0], size[2], 0.0}[axis];
+      double low = extent, high = 0.0;
+      for (const auto& place : wanted.map->place)
+        {
+          low = std::min(low, std::max(place[axis], 0.0));
+          high = std::max(high, std::min(place[axis], extent));
+        }
+      if (extent > 0.0 && high - low < 0.5 * extent)
+        refuse(fmt::format(
+          "the points of {} span {:g} mm of {:g} mm of the specimen along {}; give points over all of it, with "
+          "their unit",
+          wanted.map_file, 1e3 * std::max(high - low, 0.0), 1e3 * extent, "xyz"[axis]));
+    }
+}
+
 /// The mineral at a point.
 template <int dim>
 using MineralAt = std::function<std::uint8_t(const Vector<dim>&)>;
@@ -75,7 +96,7 @@ MineralAt<dim> mineral_at_point(const MineralMap& map, const std::vector<std::ui
   using Point = bg::model::point<double, 3, bg::cs::cartesian>;
   std::vector<std::pair<Point, std::size_t>> places;
   for (std::size_t k = 0; k < map.place.size(); ++k)
-    places.emplace_back(Point(map.place[k][0], map.place[k][1], map.place[k][2]), k);
+    places.emplace_back(Point(map.place[k][0], map.place[k][1], dim == 3 ? map.place[k][2] : 0.0), k);
   return [&minerals, tree = bg::index::rtree<std::pair<Point, std::size_t>, bg::index::quadratic<16>>(places)](
            const Vector<dim>& point) {
     const auto place = in_space<dim>(point);
@@ -122,6 +143,7 @@ std::vector<std::uint8_t> minerals_of_map(const MineralParameters& wanted, const
           result.push_back(found->second);
         else
           refuse(fmt::format("{} names {}, which is not in the table of minerals", wanted.map_file, in_quotes(name)));
+      check_span(wanted, size);
       return result;
     }
   if (!wanted.pixel_size)
@@ -132,7 +154,7 @@ std::vector<std::uint8_t> minerals_of_map(const MineralParameters& wanted, const
     if (!number.emplace(mineral.colour, std::uint8_t(number.size())).second)
       throw ParameterError(
         parameter_id<&MineralParameters::table>(),
-        fmt::format("two minerals have the colour #{:06x}; a picture tells them by it", mineral.colour));
+        fmt::format("two minerals have the colour #{:06x}; a picture needs a colour for each", mineral.colour));
   result.reserve(map.colour.size());
   for (std::size_t k = 0; k < map.colour.size(); ++k)
     if (const auto found = number.find(map.colour[k]); found != number.end())
@@ -167,8 +189,14 @@ std::vector<std::uint32_t> minerals_of_grains(const Specimen<dim>& specimen, con
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     {
       std::vector<std::size_t> n_points(wanted.minerals.size(), 0);
-      for (const Vector<dim>& point : points)
-        ++n_points[mineral_at(at<dim>(specimen.grains.position, i) + specimen.grains.radius[i] * point)];
+      for (const Vector<dim>& of_ball : points)
+        {
+          Vector<dim> point = at<dim>(specimen.grains.position, i) + specimen.grains.radius[i] * of_ball;
+          for (int c = 0; c < dim; ++c)
+            if (specimen.repeats(c))
+              point[c] -= specimen.size[c] * std::floor(point[c] / specimen.size[c]);
+          ++n_points[mineral_at(point)];
+        }
       result.push_back(std::uint32_t(std::max_element(n_points.begin(), n_points.end()) - n_points.begin()));
     }
   return result;

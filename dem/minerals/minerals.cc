@@ -6,8 +6,6 @@
 #include "dem/minerals/mineral_map.h"
 #include "dem/specimen/disjoint_sets.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -67,8 +65,7 @@ void fill_by_shares(Specimen<dim>& specimen, const std::vector<Mineral>& mineral
 {
   std::vector<CellKind> kinds;
   for (const Mineral& mineral : minerals)
-    kinds.push_back(
-      {"mineral grain of " + mineral.name, mineral.size, *mineral.share, mineral.aspect_ratio, mineral.angle});
+    kinds.push_back({"mineral grain", mineral.size, mineral.name, *mineral.share, mineral.aspect_ratio, mineral.angle});
   const auto cells =
     throw_cells(specimen, kinds, RandomStream::mineral_grains, parameter_id<&MineralParameters::table>());
   specimen.groups = cells_of_grains(specimen, cells);
@@ -98,31 +95,40 @@ void fill_by_map(Specimen<dim>& specimen, const MineralParameters& wanted)
     }
 }
 
-/// Multiplies what the joints have by their ratios.
-template <int dim>
-void scale_joints(Specimen<dim>& specimen, const MineralParameters& wanted)
+/// Calls f(joint, ratios) for each joint.
+template <int dim, typename F>
+void for_each_ratio(const Specimen<dim>& specimen, const MineralParameters& wanted, const F& f)
 {
   const std::size_t n = wanted.minerals.size();
   std::vector<JointRatios> boundary;
   for (std::size_t one = 0; one < n; ++one)
     for (std::size_t two = 0; two < n; ++two)
       boundary.push_back(boundary_ratios(wanted, one, two));
-  auto& joints = specimen.joints;
+  const auto& joints = specimen.joints;
   for (std::size_t j = 0; j < joints.size(); ++j)
     {
       const std::uint32_t grain_1 = joints.grain_1[j], grain_2 = joints.grain_2[j];
       const std::uint32_t one = specimen.mineral[grain_1], two = specimen.mineral[grain_2];
-      const JointRatios& ratios =
-        specimen.groups[grain_1] == specimen.groups[grain_2] ? wanted.minerals[one].within : boundary[one * n + two];
-      joints.normal_stiffness[j] *= ratios.stiffness;
-      joints.shear_stiffness[j] *= ratios.stiffness;
-      joints.further_friction[j] = (ratios.friction - 1.0) * joints.friction;
-      for (unsigned int i = 0; i < joints.n_segments; ++i)
-        {
-          joints.tensile_strength[joints.segment(i, j)] *= ratios.tensile_strength;
-          joints.cohesion[joints.segment(i, j)] *= ratios.cohesion;
-        }
+      f(j,
+        specimen.groups[grain_1] == specimen.groups[grain_2] ? wanted.minerals[one].within : boundary[one * n + two]);
     }
+}
+
+/// Multiplies the properties of the joints by their ratios.
+template <int dim>
+void scale_joints(Specimen<dim>& specimen, const MineralParameters& wanted)
+{
+  auto& joints = specimen.joints;
+  for_each_ratio(specimen, wanted, [&](const std::size_t j, const JointRatios& ratios) {
+    joints.normal_stiffness[j] *= ratios.stiffness;
+    joints.shear_stiffness[j] *= ratios.stiffness;
+    joints.further_friction[j] = (ratios.friction - 1.0) * joints.friction;
+    for (unsigned int i = 0; i < joints.n_segments; ++i)
+      {
+        joints.tensile_strength[joints.segment(i, j)] *= ratios.tensile_strength;
+        joints.cohesion[joints.segment(i, j)] *= ratios.cohesion;
+      }
+  });
 }
 
 /// Gives the grains the masses of their minerals; the bulk density follows.
@@ -179,6 +185,19 @@ void put_in_minerals(Specimen<dim>& specimen, const MineralParameters& wanted)
   scale_masses(specimen, wanted.minerals);
 }
 
+template <int dim>
+Specimen<dim> with_one_stiffness(Specimen<dim> specimen, const MineralParameters& wanted)
+{
+  auto& joints = specimen.joints;
+  for_each_ratio(specimen, wanted, [&](const std::size_t j, const JointRatios& ratios) {
+    joints.normal_stiffness[j] /= ratios.stiffness;
+    joints.shear_stiffness[j] /= ratios.stiffness;
+  });
+  return specimen;
+}
+
+template Specimen<2> with_one_stiffness<2>(Specimen<2>, const MineralParameters&);
+template Specimen<3> with_one_stiffness<3>(Specimen<3>, const MineralParameters&);
 template void put_in_minerals<2>(Specimen<2>&, const MineralParameters&);
 template void put_in_minerals<3>(Specimen<3>&, const MineralParameters&);
 } // namespace feldspar

@@ -10,4 +10,8 @@ namespace feldspar
 /// minerals do not fit the specimen. Nothing where there are no minerals.
 template <int dim>
 void put_in_minerals(Specimen<dim>& specimen, const MineralParameters& wanted);
+
+/// The specimen with the stiffness of its law at every joint, as it was before the minerals were put in.
+template <int dim>
+Specimen<dim> with_one_stiffness(Specimen<dim> specimen, const MineralParameters& wanted);
 } // namespace feldspar

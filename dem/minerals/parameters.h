@@ -73,6 +73,10 @@ struct MineralParameters
   std::vector<Mineral> minerals;  ///< of the table
   std::vector<MineralBoundary> boundaries;
   std::shared_ptr<const MineralMap> map; ///< none: Voronoi cells
+
+  /// The form of the mineral grains; breakable where there are no minerals.
+  MineralGrainForm form_of_rock() const { return minerals.empty() ? MineralGrainForm::breakable : form; }
+  bool has_picture() const { return map && !map->colour.empty(); }
 };
 
 /// The most minerals of a rock.

@@ -40,9 +40,9 @@ Specimen<dim> make_rock(const RockParameters& rock, const std::uint64_t seed, co
   put_in_flaws(specimen, rock.flaws, rock.smooth_joint);
   put_in_mineral_grains(specimen, rock.mineral_grains, rock.smooth_joint);
   put_in_clumps(specimen, rock.clumps);
-  if (rock.minerals.form == MineralGrainForm::smooth_boundaries)
+  if (rock.minerals.form_of_rock() == MineralGrainForm::smooth_boundaries)
     join_minerals_smoothly(specimen, rock.minerals, rock.smooth_joint);
-  else if (rock.minerals.form == MineralGrainForm::rigid)
+  else if (rock.minerals.form_of_rock() == MineralGrainForm::rigid)
     make_minerals_rigid(specimen);
   return specimen;
 }

@@ -181,7 +181,7 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
 template <int dim, typename Archive>
 void transfer_minerals(Archive& grains, Specimen<dim>& specimen)
 {
-  constexpr std::uint32_t most_minerals = 255;
+  constexpr std::uint32_t most_minerals = 250; // as of a table
   if constexpr (Archive::reads)
     {
       if (!grains.has("mineral"))

@@ -90,6 +90,39 @@ TEST(Minerals, OfATestAreInItsFiles)
     EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
+// One of two variants has no minerals, and so nothing that is rigid.
+TEST(Minerals, MayBeOfOneVariantAlone)
+{
+  const TemporaryFolder folder;
+  write_rock(folder);
+  const auto outcome = run_without_pictures(
+    folder.path(),
+    "lab rock.prm --output out --quiet --set 'Minerals/Grains = rigid' --set 'Variants/Entry = Minerals/Table' "
+    "--set 'Variants/Values = minerals.csv; none' --set 'Tests/Stop strain = 1e-5'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto tests = nlohmann::json::parse(content(folder.path() / "out/summary.json"))["tests"];
+  EXPECT_GT(tests[0]["n_clumps"], 0);
+  EXPECT_EQ(tests[1]["n_clumps"], 0);
+}
+
+// The friction of the minerals is a part of what a checkpoint keeps.
+TEST(Minerals, OfATestThatWasKilledGoOnToTheSameBits)
+{
+  const TemporaryFolder folder;
+  write_rock(folder);
+  folder.write("minerals.csv", "mineral,share [%],size [mm],tensile_strength_ratio,cohesion_ratio,friction_ratio\n"
+                               "quartz,60,5,0.5,0.5,1.5\n"
+                               "mica,40,4,0.3,0.3,0.2\n");
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  run_and_kill_once(folder.path(), "lab rock.prm --output out --quiet --set 'Tests/Steps between checkpoints = 500'",
+                    "[ -e out/checkpoints/uniaxial_compression.h5 ] && sleep 0.5");
+  const auto outcome = run_without_pictures(folder.path(), "lab --resume out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(outcome.error.find("kept as"), std::string::npos) << outcome.error;
+  for (const char* const file : {"cracks.csv", "minerals.csv", "curves/uniaxial_compression.csv"})
+    EXPECT_EQ(content(folder.path() / "out" / file), content(folder.path() / "whole" / file)) << file;
+}
+
 /// K and G of a periodic volume lie between Hashin and Shtrikman's bounds in space and between Reuss's and Voigt's in the plane,
 /// where a volume of so few mineral grains is not isotropic enough for the narrow ones.
 void expect_within_bounds(const std::string& settings, const std::string& lower, const std::string& upper)

@@ -88,8 +88,8 @@ TEST(MineralFiles, TablesWithMistakesAreRefused)
   const tests::TemporaryFolder folder;
   const auto table = [&](const std::string& text) { return [&, text] { read_minerals(folder.write("m.csv", text)); }; };
   expect_words(table("mineral,share [%]\n"), "there is no mineral below the header");
-  expect_words(table("mineral,share [%]\nmica,20\nmica,80\n"), "m.csv:3: mica stands in the table already");
-  expect_words(table("mineral,share [%]\nmica,120\n"), "must lie in [0, 1]");
+  expect_words(table("mineral,share [%]\nmica,20\nmica,80\n"), "m.csv:3: mica is in the table twice");
+  expect_words(table("mineral,share [%]\nmica,120\n"), "share [%] = 120 must lie in 0 to 100 %");
   expect_words(table("mineral,size\nmica,2\n"), "has no unit; write it as in \"size [m]\"");
   expect_words(table("mineral,hardness\nmica,2\n"), "\"hardness\" is no column of this table; they are mineral, share");
   expect_words(table("mineral,colour\nmica,red\n"), "\"red\" is no colour; write red, green and blue as #rrggbb");
@@ -97,7 +97,8 @@ TEST(MineralFiles, TablesWithMistakesAreRefused)
   expect_words(table("mineral,stiffness_ratio\nmica,0\n"), "stiffness_ratio = 0 must lie in");
   expect_words(table("share [%]\n2\n"), "mineral");
   expect_words([&] { read_mineral_boundaries(folder.write("b.csv", "mineral_1,mineral_2\na,b\nb,a\n")); },
-               "b.csv:3: the boundary of b and a stands in the table already");
+               "b.csv:3: the boundary of b and a is in the table twice");
+  expect_words([&] { read_mineral_map(folder.write("p.jpg", "x")); }, "p.jpg: is neither a picture in PNG (.png)");
   expect_words([&] { read_mineral_map(folder.write("p.csv", "x [mm],mineral\n1,mica\n")); }, "a point needs x and y");
 }
 
@@ -163,14 +164,14 @@ TEST_F(MineralInput, NeedsWhatBelongsTogether)
   EXPECT_EQ(read("set Table = colours.csv\n set Map = red.png\n set Pixel size = 0.5 mm").minerals.map->width, 100u);
   const MineralParameters all =
     read(
-      "set Table = colours.csv\n set Map = red.png\n set Pixel size = 1 mm\n set Slices = 2\n set Slice distance = 3 mm\n"
-      "set Boundary strength = 0.7\n set Grains = rigid")
+      "set Table = colours.csv\n set Map = red.png\n set Pixel size = 1 mm\n set Slices = 2\n set Slice distance = 30 mm\n"
+      "set Boundary strength = 0.7\nend\nsubsection Specimen\n set Dimension = 3")
       .minerals;
   EXPECT_EQ(all.n_slices, 2u);
   EXPECT_DOUBLE_EQ(*all.pixel_size, 1e-3);
-  EXPECT_DOUBLE_EQ(*all.slice_distance, 3e-3);
+  EXPECT_DOUBLE_EQ(*all.slice_distance, 30e-3);
   EXPECT_EQ(all.boundary_strength, 0.7);
-  EXPECT_EQ(all.form, MineralGrainForm::rigid);
+  EXPECT_EQ(read("set Table = m.csv\n set Grains = rigid").minerals.form, MineralGrainForm::rigid);
   const Input sought = read("set Table = m.csv\nend\nsubsection Calibration\n set Boundary strength = 0.2, 1");
   EXPECT_EQ(sought.calibration.boundary_strength->lower, 0.2);
   refuses("set Table = short.csv", "the shares add up to 40 %; they must be 100 % together");
@@ -178,8 +179,9 @@ TEST_F(MineralInput, NeedsWhatBelongsTogether)
   refuses("set Table = m.csv\n set Map = red.png\n set Pixel size = 0.5 mm",
           "has shares or sizes, which the map gives; leave these columns out, or the map");
   refuses("set Table = m.csv\n set Boundaries = b.csv", "\"biotite\" is not in the table of minerals");
-  refuses("set Table = m.csv\n set Pixel size = 0.5 mm", "is of a picture; name it by Map");
-  refuses("end\nsubsection Calibration\n set Boundary strength = 0.2, 1", "is of rocks of minerals");
+  refuses("set Table = m.csv\n set Pixel size = 0.5 mm",
+          "has no effect: Minerals/Table is none, or it is of a picture");
+  refuses("end\nsubsection Calibration\n set Boundary strength = 0.2, 1", "needs minerals; set Minerals/Table");
   refuses("set Boundary strength = 0.5", "has no effect: Minerals/Table is none");
   refuses("set Table = colours.csv\n set Map = red.png", "a picture needs the size of its pixels");
   refuses("set Table = colours.csv\n set Map = red.png\n set Pixel size = 0.1 mm", "shows 10 mm of the width");

@@ -290,8 +290,11 @@ TEST(Minerals, OfAPictureAgreeWithItButAlongEdges)
 TEST(Minerals, OfPointsAreThoseOfTheNearest)
 {
   auto map = std::make_shared<MineralMap>();
-  map->place = {{5 * milli, 20 * milli, 0.0}, {15 * milli, 20 * milli, 0.0}};
-  map->mineral_of_point = {"quartz", "mica"};
+  map->place = {{5 * milli, 5 * milli, 0.0},
+                {15 * milli, 5 * milli, 0.0},
+                {5 * milli, 35 * milli, 0.0},
+                {15 * milli, 35 * milli, 0.0}};
+  map->mineral_of_point = {"quartz", "mica", "quartz", "mica"};
   MineralParameters wanted;
   wanted.minerals = {mineral("mica", 0.0, 0.0), mineral("quartz", 0.0, 0.0)};
   wanted.map = map;
@@ -366,9 +369,9 @@ TEST(Minerals, ThatDoNotFitAreRefused)
   };
   MineralParameters wanted = granite();
   wanted.minerals[2].size = 0.5 * milli;
-  EXPECT_NE(
-    refusal(wanted).find("must be at least two mean diameters of the particles that make up a mineral grain of mica"),
-    std::string::npos)
+  EXPECT_NE(refusal(wanted).find(
+              "0.5 mm of mica: must be at least two mean diameters of the particles that make up a mineral grain"),
+            std::string::npos)
     << refusal(wanted);
   wanted.minerals[2].size = 40 * milli;
   EXPECT_NE(refusal(wanted).find("must be at most"), std::string::npos) << refusal(wanted);

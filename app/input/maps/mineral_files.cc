@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,16 +36,16 @@ public:
 
   bool next() { return csv.next(); }
 
-  /// A number in SI within bounds; none of an empty cell or a missing column.
-  std::optional<double> number(const std::string_view name_in_si, const double low, const double high)
+  /// A number in SI within bounds, which are told in words; none of an empty cell or a missing column.
+  std::optional<double> number(const std::string_view name_in_si, const double low, const double high,
+                               const std::string_view allowed)
   {
     const auto place = csv.find_in_si(name_in_si);
     if (!place || csv.text(know(*place)).empty())
       return std::nullopt;
     const double value = csv.number(*place);
     if (!(value >= low && value <= high))
-      refuse(
-        fmt::format("{} = {} must lie in [{:g}, {:g}] in SI units", csv.name_of(*place), csv.text(*place), low, high));
+      refuse(fmt::format("{} = {} must lie in {}", csv.name_of(*place), csv.text(*place), allowed));
     return value;
   }
 
@@ -114,10 +115,10 @@ MineralBoundary ratios_of(MineralTable& table)
 {
   return {"",
           "",
-          table.number("stiffness_ratio", smallest_ratio, largest_ratio),
-          table.number("tensile_strength_ratio", 0.0, largest_ratio),
-          table.number("cohesion_ratio", 0.0, largest_ratio),
-          table.number("friction_ratio", 0.0, largest_ratio)};
+          table.number("stiffness_ratio", smallest_ratio, largest_ratio, "1e-4 to 1e4"),
+          table.number("tensile_strength_ratio", 0.0, largest_ratio, "0 to 1e4"),
+          table.number("cohesion_ratio", 0.0, largest_ratio, "0 to 1e4"),
+          table.number("friction_ratio", 0.0, largest_ratio, "0 to 1e4")};
 }
 
 MineralMap read_points(const std::filesystem::path& file)
@@ -128,10 +129,11 @@ MineralMap read_points(const std::filesystem::path& file)
   constexpr std::size_t most_points = 5'000'000;
   while (table.next())
     {
-      const auto x = table.number("x_m", -farthest, farthest), y = table.number("y_m", -farthest, farthest);
+      const auto x = table.number("x_m", -farthest, farthest, "-1000 to 1000 m"),
+                 y = table.number("y_m", -farthest, farthest, "-1000 to 1000 m");
       if (!x || !y)
         table.refuse("a point needs x and y, e.g. in the columns x [mm] and y [mm]");
-      map.place.push_back({*x, *y, table.number("z_m", -farthest, farthest).value_or(0.0)});
+      map.place.push_back({*x, *y, table.number("z_m", -farthest, farthest, "-1000 to 1000 m").value_or(0.0)});
       map.mineral_of_point.push_back(table.mineral("mineral"));
       if (map.place.size() == 1)
         table.check_columns("x, y, z with a unit of length, and mineral");
@@ -192,14 +194,14 @@ std::vector<Mineral> read_minerals(const std::filesystem::path& file)
       Mineral one;
       one.name = table.mineral("mineral");
       if (std::ranges::any_of(minerals, [&](const Mineral& other) { return other.name == one.name; }))
-        table.refuse(fmt::format("{} stands in the table already", one.name));
-      one.share = table.number("share", 0.0, 1.0);
-      constexpr double quarter_turn = 1.5707963267948966;
-      one.size = table.number("size_m", 0.0, 1e3).value_or(0.0);
-      one.aspect_ratio = table.number("aspect_ratio", 1.0, 20.0).value_or(1.0);
-      one.angle = table.number("angle_rad", -quarter_turn, quarter_turn);
+        table.refuse(fmt::format("{} is in the table twice", one.name));
+      one.share = table.number("share", 0.0, 1.0, "0 to 100 %");
+      constexpr double quarter_turn = 0.5 * std::numbers::pi;
+      one.size = table.number("size_m", 0.0, 1e3, "0 to 1000 m").value_or(0.0);
+      one.aspect_ratio = table.number("aspect_ratio", 1.0, 20.0, "1 to 20").value_or(1.0);
+      one.angle = table.number("angle_rad", -quarter_turn, quarter_turn, "-90 to 90 deg");
       one.colour = table.colour().value_or(colours[minerals.size() % colours.size()]);
-      one.density = table.number("density_kg_per_m3", 1.0, 1e5);
+      one.density = table.number("density_kg_per_m3", 100.0, 1e5, "100 to 1e5 kg/m^3");
       const MineralBoundary ratios = ratios_of(table);
       one.within = {ratios.stiffness.value_or(1.0), ratios.tensile_strength.value_or(1.0),
                     ratios.cohesion.value_or(1.0), ratios.friction.value_or(1.0)};
@@ -226,7 +228,7 @@ std::vector<MineralBoundary> read_mineral_boundaries(const std::filesystem::path
       if (std::ranges::any_of(boundaries, [&](const MineralBoundary& other) {
             return (other.one == one.one && other.two == one.two) || (other.one == one.two && other.two == one.one);
           }))
-        table.refuse(fmt::format("the boundary of {} and {} stands in the table already", one.one, one.two));
+        table.refuse(fmt::format("the boundary of {} and {} is in the table twice", one.one, one.two));
       if (boundaries.empty())
         table.check_columns(
           "mineral_1, mineral_2, stiffness_ratio, tensile_strength_ratio, cohesion_ratio, friction_ratio");
@@ -238,7 +240,10 @@ std::vector<MineralBoundary> read_mineral_boundaries(const std::filesystem::path
 
 std::shared_ptr<const MineralMap> read_mineral_map(const std::filesystem::path& file)
 {
-  return std::make_shared<const MineralMap>(in_small_letters(file.extension().string()) == ".png" ? read_picture(file)
-                                                                                                  : read_points(file));
+  const std::string ending = in_small_letters(file.extension().string());
+  if (ending != ".png" && ending != ".csv" && ending != ".txt")
+    throw InputError(
+      fmt::format("{}: is neither a picture in PNG (.png) nor a table of points (.csv, .txt)", file.string()));
+  return std::make_shared<const MineralMap>(ending == ".png" ? read_picture(file) : read_points(file));
 }
 } // namespace feldspar
