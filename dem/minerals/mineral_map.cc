@@ -47,7 +47,7 @@ void check_cover(const MineralParameters& wanted, const std::array<double, 3>& s
                     axis == 1 ? ", slices further apart" : ""));
 }
 
-/// Points in another unit, or of another place, would all be on one side of the body: they must span half of it at least.
+/// Points in another unit, or of another place, would all be on one side of the body: they must span a third of it at least.
 void check_span(const MineralParameters& wanted, const std::array<double, 3>& size)
 {
   const bool in_space = size[1] > 0.0;
@@ -60,7 +60,7 @@ void check_span(const MineralParameters& wanted, const std::array<double, 3>& si
           low = std::min(low, std::max(place[axis], 0.0));
           high = std::max(high, std::min(place[axis], extent));
         }
-      if (extent > 0.0 && high - low < 0.5 * extent)
+      if (extent > 0.0 && 3.0 * (high - low) < extent)
         refuse(fmt::format(
           "the points of {} span {:g} mm of {:g} mm of the specimen along {}; give points over all of it, with "
           "their unit",

@@ -84,8 +84,8 @@ TEST(Minerals, OfATestAreInItsFiles)
   EXPECT_GT(summary["tests"][0]["boundary_crack_share_at_peak"], 0.2);
 
   // A page made anew from the files knows the minerals too.
-  ASSERT_EQ(run_feldspar(folder.path(), "report one --output page.html").exit_code, 0);
-  const std::string page = content(folder.path() / "page.html");
+  ASSERT_EQ(run_feldspar(folder.path(), "report one --output again").exit_code, 0);
+  const std::string page = content(folder.path() / "again/report.html");
   for (const char* const words : {"Cracks by mineral", "quartz | mica", "in mica"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
 }
