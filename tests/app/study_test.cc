@@ -602,6 +602,9 @@ TEST_P(ReducedStudy, GivesTheCommittedFigures)
     input = with_entry(input, section, entry, value);
   const TemporaryFolder folder;
   folder.write("piece.prm", input);
+  for (const auto& beside : std::filesystem::directory_iterator((root / "examples" / piece.input).parent_path()))
+    if (beside.path().extension() == ".csv" || beside.path().extension() == ".png") // which it may name
+      std::filesystem::copy_file(beside.path(), folder.path() / beside.path().filename());
   const auto run =
     run_without_pictures(folder.path(), command_of(piece) + " piece.prm --output out --quiet --threads 1");
   ASSERT_EQ(run.exit_code, 0) << run.error << input;
