@@ -57,6 +57,7 @@ void put_in_mineral_grains(Specimen<dim>& specimen, const MineralGrainParameters
   const auto cells = throw_cells(specimen, {{"mineral grain", *wanted.mean_size}}, RandomStream::mineral_grains, size);
   specimen.groups = cells_of_grains(specimen, cells);
   std::vector<Vector<dim>> centres;
+  centres.reserve(cells.size());
   for (const Cell<dim>& cell : cells)
     centres.push_back(cell.centre);
   join_groups_smoothly(specimen, centres, boundary);

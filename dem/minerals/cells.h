@@ -18,7 +18,7 @@ struct CellKind
 {
   std::string name;                           ///< of a cell, for messages
   double size;                                ///< diameter of the circle or ball of the mean volume [m]
-  std::string of = "";                        ///< the kind, for messages; empty where there is one
+  std::string of = {};                        ///< the kind, for messages; empty where there is one
   double share = 1.0;                         ///< of the volume
   double aspect_ratio = 1.0;                  ///< length over width
   std::optional<double> angle = std::nullopt; ///< of the length, from the first axis towards the last; none: any [rad]

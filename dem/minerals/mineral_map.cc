@@ -33,9 +33,10 @@ void check_cover(const MineralParameters& wanted, const std::array<double, 3>& s
   const std::size_t n_rows = wanted.map->colour.size() / wanted.map->width;
   if (n_rows % wanted.n_slices != 0)
     refuse(fmt::format("{} has {} rows, which {} slices cannot share", wanted.map_file, n_rows, wanted.n_slices));
+  const std::size_t n_rows_of_slice = n_rows / wanted.n_slices;
   const std::array<double, 3> shown{double(wanted.map->width) * *wanted.pixel_size,
                                     wanted.n_slices * slice_distance(wanted),
-                                    double(n_rows / wanted.n_slices) * *wanted.pixel_size};
+                                    double(n_rows_of_slice) * *wanted.pixel_size};
   constexpr double round_off = 1e-9;
   for (const std::size_t axis : {0, 2, 1})
     if (const bool is_shown = axis != 1 || wanted.n_slices > 1;

@@ -27,6 +27,7 @@ void meet_shares(const Specimen<dim>& specimen, const std::vector<Mineral>& mine
     return grain_volume<dim>(specimen.grains.radius[grain], specimen.thickness);
   };
   std::vector<double> excess;
+  excess.reserve(minerals.size());
   for (const Mineral& mineral : minerals)
     excess.push_back(-*mineral.share * specimen.grains.volume(specimen.thickness));
   for (std::size_t i = 0; i < cell_of.size(); ++i)
@@ -64,6 +65,7 @@ template <int dim>
 void fill_by_shares(Specimen<dim>& specimen, const std::vector<Mineral>& minerals)
 {
   std::vector<CellKind> kinds;
+  kinds.reserve(minerals.size());
   for (const Mineral& mineral : minerals)
     kinds.push_back({"mineral grain", mineral.size, mineral.name, *mineral.share, mineral.aspect_ratio, mineral.angle});
   const auto cells =
@@ -74,7 +76,7 @@ void fill_by_shares(Specimen<dim>& specimen, const std::vector<Mineral>& mineral
     specimen.mineral.push_back(std::uint32_t(cells[cell].kind));
 }
 
-/// Mineral grains are what hangs together by joints within one mineral; numbered in the order of their first grains.
+/// Mineral grains are the grains of one mineral that joints connect; numbered in the order of their first grains.
 template <int dim>
 void fill_by_map(Specimen<dim>& specimen, const MineralParameters& wanted)
 {
