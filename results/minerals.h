@@ -5,8 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 /// Stress and cracks in each mineral of a rock.
@@ -24,13 +22,4 @@ struct MineralMeans
 /// [n_minerals]; none of a rock without minerals. Stresses are NaN where the snapshot has none.
 std::vector<MineralMeans> mineral_means(const TestRecord& record, const Snapshot& snapshot,
                                         const std::vector<GrainPicture>& grains);
-
-/// Numbers of cracks up to a step.
-struct CracksByMineral
-{
-  std::map<std::uint32_t, std::uint64_t> within;                                  ///< by the mineral's number, from 1
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> on_boundaries; ///< by the numbers of both, from 1
-};
-
-CracksByMineral cracks_by_mineral(const std::vector<Crack>& cracks, std::uint64_t last_step);
 } // namespace feldspar

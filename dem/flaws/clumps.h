@@ -26,7 +26,7 @@ struct ClumpParameters
 template <int dim>
 void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted);
 
-/// Makes clumps of the mineral grains, of each as many as hang together by joints. Throws InputError where there can be no clumps.
+/// Makes clumps of the mineral grains, one of each part that joints connect. Throws InputError where there can be no clumps.
 template <int dim>
 void make_minerals_rigid(Specimen<dim>& specimen);
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #include "dem/minerals/mineral_map.h"
 
+#include "base/colour.h"
 #include "base/parameter_id.h"
 #include "base/quoted.h"
 
@@ -155,7 +156,7 @@ std::vector<std::uint8_t> minerals_of_map(const MineralParameters& wanted, const
     if (!number.emplace(mineral.colour, std::uint8_t(number.size())).second)
       throw ParameterError(
         parameter_id<&MineralParameters::table>(),
-        fmt::format("two minerals have the colour #{:06x}; a picture needs a colour for each", mineral.colour));
+        fmt::format("two minerals have the colour {}; a picture needs a colour for each", colour_text(mineral.colour)));
   result.reserve(map.colour.size());
   for (std::size_t k = 0; k < map.colour.size(); ++k)
     if (const auto found = number.find(map.colour[k]); found != number.end())
@@ -164,10 +165,10 @@ std::vector<std::uint8_t> minerals_of_map(const MineralParameters& wanted, const
       {
         std::vector<std::string> colours;
         for (const Mineral& mineral : wanted.minerals)
-          colours.push_back(fmt::format("#{:06x} {}", mineral.colour, mineral.name));
-        refuse(fmt::format("{}: the pixel in row {}, column {} has the colour #{:06x}, which no mineral has; the table "
+          colours.push_back(colour_text(mineral.colour) + " " + mineral.name);
+        refuse(fmt::format("{}: the pixel in row {}, column {} has the colour {}, which no mineral has; the table "
                            "has {}",
-                           wanted.map_file, k / map.width + 1, k % map.width + 1, map.colour[k],
+                           wanted.map_file, k / map.width + 1, k % map.width + 1, colour_text(map.colour[k]),
                            excerpt(fmt::format("{}", fmt::join(colours, ", ")), 200)));
       }
   check_cover(wanted, size);

@@ -1,5 +1,6 @@
 #include "results/folder/result_folder.h"
 
+#include "base/colour.h"
 #include "base/input_error.h"
 #include "base/json_text.h"
 #include "base/quoted.h"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <map>
 #include <optional>
@@ -95,13 +95,11 @@ std::vector<MineralShare> minerals_of(const Json& json)
     for (const Json& one : *all)
       try
         {
-          const auto name = one.at("name").get<std::string>(), colour = one.at("colour").get<std::string>();
-          constexpr int hexadecimal = 16;
-          std::uint32_t rgb = 0;
-          if (!is_plain_name(name) || colour.size() != 7 || colour[0] != '#' ||
-              std::from_chars(&colour[1], &colour[0] + 7, rgb, hexadecimal).ptr != &colour[0] + 7)
+          const auto name = one.at("name").get<std::string>();
+          const auto colour = parse_colour(one.at("colour").get<std::string>());
+          if (!is_plain_name(name) || !colour)
             return {};
-          minerals.push_back({{name, rgb}, one.at("n_grains").get<std::uint64_t>(), one.at("share").get<double>()});
+          minerals.push_back({{name, *colour}, one.at("n_grains").get<std::uint64_t>(), one.at("share").get<double>()});
         }
       catch (const Json::exception&)
         {

@@ -1,5 +1,6 @@
 #include "results/folder/summary.h"
 
+#include "base/colour.h"
 #include "base/whole_file.h"
 #include "results/evaluation.h"
 #include "results/fits/direct_shear.h"
@@ -8,7 +9,6 @@
 #include "results/runs/trust.h"
 #include "results/statistics.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -129,10 +129,8 @@ Json describe(const FinishedTest& test)
                      {"ligament_length_m", notch->ligament_length},
                      {"is_valid", notch->is_valid}};
   for (const auto& [mineral, n_grains, share] : test.record.minerals)
-    json["minerals"].push_back({{"name", mineral.name},
-                                {"colour", fmt::format("#{:06x}", mineral.colour)},
-                                {"n_grains", n_grains},
-                                {"share", share}});
+    json["minerals"].push_back(
+      {{"name", mineral.name}, {"colour", colour_text(mineral.colour)}, {"n_grains", n_grains}, {"share", share}});
   for (const auto& flaw : test.appearance.flaws)
     json["flaws"].push_back({{"name", flaw.name}, {"open", flaw.open}, {"outline_m", flaw.outline}});
   for (const auto& rve : test.appearance.rves)

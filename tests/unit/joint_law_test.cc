@@ -1,6 +1,7 @@
 // The boundary of a joint law: one that is not in the list, as small as can be, goes through installation, storage, the
 // sweep by packs, energies and the criterion of equilibria as the flat joint does.
 
+#include "dem/dynamics/sweeps/joint_state_of_law.h"
 #include "dem/dynamics/sweeps/joint_sweep_of_law.h"
 #include "dem/genesis/joint_installation.h"
 #include "tests/unit/small_specimen.h"

@@ -1,5 +1,6 @@
 // A face whose segments are all bonded responses as one spring: the same forces, breaks and energies as segment by segment.
 
+#include "dem/dynamics/sweeps/joint_state_of_law.h"
 #include "dem/dynamics/sweeps/joint_sweep_of_law.h"
 #include "tests/unit/small_specimen.h"
 

@@ -45,7 +45,8 @@ std::vector<MeasuredCurve> measured_curves(const std::vector<std::filesystem::pa
 /// line with file and line.
 Series read_laboratory_curves(const std::vector<MeasuredCurve>& curves);
 
-/// Reads the acoustic emission that a laboratory has recorded: a table with a row for each event or hit in the order of time, with its
-/// magnitude, amplitude or energy, and perhaps time and stress, each with its unit: `amplitude [dB]`. Throws InputError, one line with file and line.
+/// Reads the acoustic emission that a laboratory has recorded: a table with a row for each event or hit in the order of time, with
+/// its magnitude, amplitude or energy, and perhaps time and stress, each with its unit: `amplitude [dB]`. Throws InputError, one
+/// line with file and line.
 EmissionCatalogue read_emission_catalogue(const std::filesystem::path& file);
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #include "app/input/maps/mineral_files.h"
 
+#include "base/colour.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -68,10 +68,8 @@ public:
     const std::string_view text = csv.text(know(csv.place("colour")));
     if (text.empty())
       return std::nullopt;
-    std::uint32_t value = 0;
-    const char* const end = text.data() + text.size();
-    constexpr int hexadecimal = 16;
-    if (text.size() != 7 || text[0] != '#' || std::from_chars(text.data() + 1, end, value, hexadecimal).ptr != end)
+    const auto value = parse_colour(text);
+    if (!value)
       refuse(fmt::format("{} is no colour; write red, green and blue as #rrggbb, e.g. #c0c0c0", in_quotes(text)));
     return value;
   }
@@ -129,11 +127,13 @@ MineralMap read_points(const std::filesystem::path& file)
   constexpr std::size_t most_points = 5'000'000;
   while (table.next())
     {
-      const auto x = table.number("x_m", -farthest, farthest, "-1000 to 1000 m"),
-                 y = table.number("y_m", -farthest, farthest, "-1000 to 1000 m");
+      const auto coordinate = [&](const char* const name) {
+        return table.number(name, -farthest, farthest, "-1000 to 1000 m");
+      };
+      const auto x = coordinate("x_m"), y = coordinate("y_m");
       if (!x || !y)
         table.refuse("a point needs x and y, e.g. in the columns x [mm] and y [mm]");
-      map.place.push_back({*x, *y, table.number("z_m", -farthest, farthest, "-1000 to 1000 m").value_or(0.0)});
+      map.place.push_back({*x, *y, coordinate("z_m").value_or(0.0)});
       map.mineral_of_point.push_back(table.mineral("mineral"));
       if (map.place.size() == 1)
         table.check_columns("x, y, z with a unit of length, and mineral");

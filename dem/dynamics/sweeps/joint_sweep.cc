@@ -1,5 +1,6 @@
 #include "dem/dynamics/sweeps/joint_sweep.h"
 
+#include "dem/dynamics/sweeps/joint_state_of_law.h"
 #include "dem/dynamics/sweeps/joint_sweep_of_law.h"
 
 #include <utility>

@@ -1,5 +1,6 @@
 #include "report/pictures/maps/specimen_data.h"
 
+#include "base/colour.h"
 #include "base/prefixes.h"
 #include "report/chart/page_writer.h"
 #include "report/pictures/maps/group_colour.h"
@@ -7,7 +8,6 @@
 #include "report/pictures/maps/parted_grains.h"
 #include "results/emission.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -257,7 +257,7 @@ Json data_of(const TitledTest& one, const std::size_t n)
 
   Json minerals = Json::array();
   for (const MineralShare& one_of : record.minerals)
-    minerals.push_back({one_of.mineral.name, fmt::format("#{:06x}", pale(one_of.mineral.colour))});
+    minerals.push_back({one_of.mineral.name, colour_text(pale(one_of.mineral.colour))});
 
   Json stages = Json::array(); // which a picture shows
   for (const MapStage& stage : map_stages(record))
