@@ -188,6 +188,9 @@ TEST_F(MineralInput, NeedsWhatBelongsTogether)
   refuses("set Table = colours.csv\n set Map = grey.png\n set Pixel size = 0.5 mm",
           "the pixel in row 1, column 1 has the colour #090909, which no mineral has; the table has #ff0000 quartz, "
           "#00ff00 mica");
+  folder.write("micrometres.csv", "x [um],y [um],mineral\n1,1,quartz\n12,24,mica\n");
+  refuses("set Table = colours.csv\n set Map = micrometres.csv",
+          "span 0.011 mm of 50 mm of the specimen along x; give points over all of it, with their unit");
   refuses("set Table = colours.csv\n set Map = p.csv", "names \"biotite\", which is not in the table of minerals");
   refuses("set Table = m.csv\n set Grains = smooth boundaries", "says nothing of the bonds at the boundaries");
   refuses("set Table = m.csv\n set Grains = rigid\nend\nsubsection Specimen\n set Dimension = 3",
