@@ -44,9 +44,8 @@ std::map<std::size_t, PeriodicImage<dim>> images_held(
   std::map<std::size_t, PeriodicImage<dim>> held;
   while (held.size() < candidates.size())
     {
-      const auto most = std::max_element(waiting.begin(), waiting.end(), [](const auto& one, const auto& other) {
-        return one.second.size() < other.second.size();
-      });
+      const auto most = std::ranges::max_element(
+        waiting, [](const auto& one, const auto& other) { return one.second.size() < other.second.size(); });
       const auto [image, joints] = *most;
       for (const std::size_t joint : joints)
         {
@@ -150,7 +149,7 @@ typename OpenCell<dim>::PieceKey OpenCell<dim>::piece_of(const Specimen<dim>& sp
 template <int dim>
 std::optional<std::uint32_t> OpenCell<dim>::number_of(const PeriodicImage<dim>& image) const
 {
-  const auto found = std::lower_bound(all_images.begin(), all_images.end(), image);
+  const auto found = std::ranges::lower_bound(all_images, image);
   if (found == all_images.end() || *found != image)
     return std::nullopt;
   return std::uint32_t(found - all_images.begin());

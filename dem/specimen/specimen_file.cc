@@ -1,6 +1,7 @@
 #include "dem/specimen/specimen_file.h"
 
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/parameter_id.h"
 #include "base/quoted.h"
 #include "base/system/hdf5_archive.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -39,7 +39,7 @@ void transfer_law(Archive& archive, Joints<dim>& joints)
   archive.text("law", name);
   const auto law = JointLaws::named<dim>(name);
   if (!law)
-    throw InputError(fmt::format("joints of the law {}, which this program does not have", in_quotes(name)));
+    throw InputError("joints of the law {}, which this program does not have", in_quotes(name));
   if constexpr (Archive::reads)
     joints.law = *law;
   std::visit(
@@ -81,9 +81,7 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
       one.value("n_joints", flaw.n_joints);
       for (int c = 0; c < dim; ++c)
         {
-          std::vector<double> along;
-          for (const auto& point : flaw.outline)
-            along.push_back(point[c]);
+          auto along = mapped<double>(flaw.outline, [&](const auto& point) { return point[c]; });
           one.array(fmt::format("outline_{}_m", "xyz"[c]), along);
           if (c > 0 && along.size() != flaw.outline.size())
             throw InputError("the outline of a flaw is incomplete");
@@ -110,11 +108,11 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
   auto& joints = specimen.smooth_joints;
   // A column of all of them, one number each.
   const auto pass = [&](const std::string& name, const auto& part) {
-    using Number = std::remove_cvref_t<decltype(part(std::declval<SmoothJoint<dim>&>()))>;
+    using Number = std::remove_cvref_t<decltype(std::invoke(part, std::declval<SmoothJoint<dim>&>()))>;
     std::vector<std::conditional_t<std::is_floating_point_v<Number>, double, std::uint32_t>> column;
     column.reserve(joints.size());
     for (auto& joint : joints)
-      column.push_back(part(joint));
+      column.push_back(std::invoke(part, joint));
     archive.array(name, column);
     if constexpr (Archive::reads)
       {
@@ -123,19 +121,24 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
         if (joints.size() != column.size())
           throw InputError("smooth joints are incomplete");
         for (std::size_t k = 0; k < joints.size(); ++k)
-          part(joints[k]) = Number(column[k]);
+          std::invoke(part, joints[k]) = Number(column[k]);
       }
   };
-  pass(
-    "grain_1", [](auto& joint) -> auto& { return joint.grain_1; });
-  pass(
-    "grain_2", [](auto& joint) -> auto& { return joint.grain_2; });
-  pass(
-    "number", [](auto& joint) -> auto& { return joint.number; });
-  pass(
-    "area_m2", [](auto& joint) -> auto& { return joint.area; });
-  pass(
-    "half_radius_difference_m", [](auto& joint) -> auto& { return joint.half_radius_difference; });
+  using Joint = SmoothJoint<dim>;
+  const auto of_face = [](const auto part) {
+    return [=](auto& joint) -> auto& { return joint.face.*part; };
+  };
+  const auto of_bond = [](const auto part) {
+    return [=](auto& joint) -> auto& { return joint.face.bond.*part; };
+  };
+  const auto of_state = [](const auto part) {
+    return [=](auto& joint) -> auto& { return joint.state.*part; };
+  };
+  pass("grain_1", &Joint::grain_1);
+  pass("grain_2", &Joint::grain_2);
+  pass("number", &Joint::number);
+  pass("area_m2", &Joint::area);
+  pass("half_radius_difference_m", &Joint::half_radius_difference);
   for (int c = 0; c < dim; ++c)
     {
       pass(
@@ -143,24 +146,15 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
       pass(
         fmt::format("branch_{}_m", "xyz"[c]), [c](auto& joint) -> auto& { return joint.branch[c]; });
     }
-  pass(
-    "normal_stiffness_Pa_per_m", [](auto& joint) -> auto& { return joint.face.normal_stiffness; });
-  pass(
-    "shear_stiffness_Pa_per_m", [](auto& joint) -> auto& { return joint.face.shear_stiffness; });
-  pass(
-    "friction", [](auto& joint) -> auto& { return joint.face.friction; });
-  pass(
-    "dilation_slope", [](auto& joint) -> auto& { return joint.face.dilation_slope; });
-  pass(
-    "tensile_strength_Pa", [](auto& joint) -> auto& { return joint.face.bond.tensile_strength; });
-  pass(
-    "cohesion_Pa", [](auto& joint) -> auto& { return joint.face.bond.cohesion; });
-  pass(
-    "friction_slope", [](auto& joint) -> auto& { return joint.face.bond.friction_slope; });
-  pass(
-    "gap_m", [](auto& joint) -> auto& { return joint.state.gap; });
-  pass(
-    "bonded", [](auto& joint) -> auto& { return joint.state.bonded; });
+  pass("normal_stiffness_Pa_per_m", of_face(&smooth_joint::Face::normal_stiffness));
+  pass("shear_stiffness_Pa_per_m", of_face(&smooth_joint::Face::shear_stiffness));
+  pass("friction", of_face(&smooth_joint::Face::friction));
+  pass("dilation_slope", of_face(&smooth_joint::Face::dilation_slope));
+  pass("tensile_strength_Pa", of_bond(&Bond<double>::tensile_strength));
+  pass("cohesion_Pa", of_bond(&Bond<double>::cohesion));
+  pass("friction_slope", of_bond(&Bond<double>::friction_slope));
+  pass("gap_m", of_state(&smooth_joint::State<dim>::gap));
+  pass("bonded", of_state(&smooth_joint::State<dim>::bonded));
 
   std::vector<std::uint32_t> ends;
   for (const auto& [one, two] : specimen.kept_apart)
@@ -319,7 +313,7 @@ bool lies(const double value, const double low, const double high) { return valu
 template <typename Values>
 bool all_lie(const Values& values, const double low, const double high)
 {
-  return std::all_of(values.begin(), values.end(), [=](const double value) { return lies(value, low, high); });
+  return std::ranges::all_of(values, [=](const double value) { return lies(value, low, high); });
 }
 
 constexpr double smallest = std::numeric_limits<double>::min();
@@ -338,7 +332,7 @@ void check_grains(const Specimen<dim>& specimen)
     }
   require(all_lie(grains.radius, smallest, specimen.size.maxCoeff()) && all_lie(grains.mass, smallest, largest),
           "a grain has no positive radius and mass, or does not fit into its box");
-  const auto [least, most] = std::minmax_element(grains.radius.begin(), grains.radius.end());
+  const auto [least, most] = std::ranges::minmax_element(grains.radius);
   require(lies(specimen.report.mean_radius, 0.99 * *least, 1.01 * *most), "its mean radius is not that of its grains");
 }
 
@@ -377,7 +371,7 @@ void check_joints(const Specimen<dim>& specimen)
   require(all_lie(joints.normal_stiffness, smallest, largest) && all_lie(joints.shear_stiffness, 0.0, largest) &&
             all_lie(joints.half_length, smallest, edge) && all_lie(joints.rest_distance, smallest, 2.0 * edge),
           "a joint has no positive stiffness and size");
-  require(std::all_of(joints.bonded.begin(), joints.bonded.end(), [](const double b) { return b == 0.0 || b == 1.0; }),
+  require(std::ranges::all_of(joints.bonded, [](const double b) { return b == 0.0 || b == 1.0; }),
           "a segment is neither bonded nor broken");
   require(all_lie(joints.tensile_strength, 0.0, largest) && all_lie(joints.cohesion, 0.0, largest),
           "a segment has a negative strength");
@@ -397,9 +391,8 @@ void check_clumps(const Specimen<dim>& specimen)
       has_members[g] = true;
     }
   require(group.size() == specimen.grains.size() && specimen.report.n_clumps <= group.size() &&
-            std::size_t(std::count(has_members.begin(), has_members.end(), true)) == specimen.report.n_clumps &&
-            std::size_t(std::find(has_members.begin(), has_members.end(), false) - has_members.begin()) ==
-              specimen.report.n_clumps,
+            std::size_t(std::ranges::count(has_members, true)) == specimen.report.n_clumps &&
+            std::size_t(std::ranges::find(has_members, false) - has_members.begin()) == specimen.report.n_clumps,
           "clumps are missing");
   for (std::size_t j = 0; j < specimen.joints.size(); ++j)
     require(group[specimen.joints.grain_1[j]] != group[specimen.joints.grain_2[j]], "a joint lies inside a clump");
@@ -426,8 +419,7 @@ void check_smooth_joints(const Specimen<dim>& specimen)
   const std::size_t n_grains = specimen.grains.size();
   const auto is_pair = [&](const GrainPair& pair) { return pair.first < pair.second && pair.second < n_grains; };
   require(specimen.groups.empty() || specimen.groups.size() == n_grains, "mineral grains are missing");
-  require(std::all_of(specimen.kept_apart.begin(), specimen.kept_apart.end(), is_pair) &&
-            std::is_sorted(specimen.kept_apart.begin(), specimen.kept_apart.end()),
+  require(std::ranges::all_of(specimen.kept_apart, is_pair) && std::ranges::is_sorted(specimen.kept_apart),
           "grains are kept apart that are not there");
   const double edge = specimen.size.maxCoeff();
   GrainPair last{0, 0};
@@ -501,9 +493,9 @@ Specimen<dim> read_specimen(const std::filesystem::path& file, const std::functi
     if (format != format_name)
       throw InputError("another kind of file");
     if (version != schema_version)
-      throw InputError(fmt::format("a specimen of layout {}, this program reads layout {}", version, schema_version));
+      throw InputError("a specimen of layout {}, this program reads layout {}", version, schema_version);
     if (dimension != dim)
-      throw InputError(fmt::format("a specimen in {} dimensions, the input asks for {}", dimension, dim));
+      throw InputError("a specimen in {} dimensions, the input asks for {}", dimension, dim);
     transfer(root, specimen);
     check(specimen);
   };
@@ -529,10 +521,8 @@ unsigned int dimension_of_specimen(const std::filesystem::path& file, const std:
   return dimension;
 }
 
-template void write_specimen<2>(const Specimen<2>&, const std::filesystem::path&,
-                                const std::function<void(Hdf5Writer&)>&);
-template Specimen<2> read_specimen<2>(const std::filesystem::path&, const std::function<void()>&);
-template void write_specimen<3>(const Specimen<3>&, const std::filesystem::path&,
-                                const std::function<void(Hdf5Writer&)>&);
-template Specimen<3> read_specimen<3>(const std::filesystem::path&, const std::function<void()>&);
+template decltype(write_specimen<2>) write_specimen<2>;
+template decltype(read_specimen<2>) read_specimen<2>;
+template decltype(write_specimen<3>) write_specimen<3>;
+template decltype(read_specimen<3>) read_specimen<3>;
 } // namespace feldspar
