@@ -149,7 +149,7 @@ typename OpenCell<dim>::PieceKey OpenCell<dim>::piece_of(const Specimen<dim>& sp
 template <int dim>
 std::optional<std::uint32_t> OpenCell<dim>::number_of(const PeriodicImage<dim>& image) const
 {
-  const auto found = std::ranges::lower_bound(all_images, image);
+  const auto found = std::lower_bound(all_images.begin(), all_images.end(), image);
   if (found == all_images.end() || *found != image)
     return std::nullopt;
   return std::uint32_t(found - all_images.begin());
