@@ -4,7 +4,9 @@
 #include "app/run/interrupt.h"
 #include "app/run/other_program.h"
 #include "app/screen/print_result.h"
+#include "base/contains.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
 #include "dem/genesis/packing_export.h"
@@ -33,10 +35,7 @@ using namespace feldspar;
 
 std::vector<std::string> names_of_commands_with_input()
 {
-  std::vector<std::string> names;
-  for (const CommandWithInput& command : commands_with_input)
-    names.emplace_back(command.name);
-  return names;
+  return mapped<std::string>(commands_with_input, &CommandWithInput::name);
 }
 
 constexpr std::size_t longest_line = 2000; // of standard error, whatever it repeats
@@ -45,7 +44,7 @@ constexpr std::size_t longest_line = 2000; // of standard error, whatever it rep
 /// full.
 void say(std::string text)
 {
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::ranges::replace(text, '\n', ' ');
   std::fputs(fmt::format("feldspar: {}\n", shortened(text, longest_line)).c_str(), stderr);
 }
 
@@ -140,9 +139,7 @@ private:
 
   void add_packings(CLI::App& command)
   {
-    std::vector<std::string> names;
-    for (const PackingForm& form : packing_forms)
-      names.emplace_back(form.name);
+    auto names = mapped<std::string>(packing_forms, &PackingForm::name);
     command
       .add_option("--packing", common.packings,
                   "write the grains into packings/ too: yade (lines x y z radius) or lammps (data with bonds)")
@@ -306,7 +303,7 @@ private:
   static std::string unknown_option(const CLI::App& command)
   {
     const std::vector<std::string> words = command.remaining();
-    const auto word = std::find_if(words.begin(), words.end(), [](const auto& one) { return one.starts_with("--"); });
+    const auto word = std::ranges::find_if(words, [](const auto& one) { return one.starts_with("--"); });
     if (word == words.end())
       return "";
     std::vector<std::string> names;
@@ -323,9 +320,8 @@ private:
     std::vector<std::string> names;
     for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
       names.push_back(command->get_name());
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError(
-        fmt::format("{}: no such command{}", excerpt(name), suggestion(name, {names.begin(), names.end()})));
+    if (!contains(names, name))
+      throw InputError("{}: no such command{}", excerpt(name), suggestion(name, {names.begin(), names.end()}));
   }
 
   CLI::App app{"Feldspar: laboratory tests on rock made of grains and joints", "feldspar"};

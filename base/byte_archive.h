@@ -37,7 +37,7 @@ std::vector<T> values_of(const std::string& bytes)
 {
   static_assert(std::is_trivially_copyable_v<T>);
   std::vector<T> values(bytes.size() / sizeof(T));
-  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values.data()));
+  std::ranges::copy(bytes, reinterpret_cast<char*>(values.data()));
   return values;
 }
 

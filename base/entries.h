@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/body.h"
+#include "base/contains.h"
 #include "base/parameter_id.h"
 
 #include <cstddef>
@@ -194,6 +195,19 @@ Entry<P> file(const std::string_view name, std::string P::*const member, const s
               const EntryFlags& flags = {})
 {
   return {name, typename Entry<P>::File{member}, meaning, flags, id_of_member(member)};
+}
+
+/// An entry of a form of its own: `read` makes the value of a text or throws InputError, `write` the text of a value.
+template <typename P, typename T, typename Read, typename Write>
+Entry<P> text(const std::string_view name, T P::*const member, const std::string_view unit, std::string range,
+              const Read& read, const Write& write, const std::string_view meaning, const EntryFlags& flags = {})
+{
+  return {
+    name,
+    typename Entry<P>::Text{unit, std::move(range),
+                            [=](P& parameters, const std::string_view found) { parameters.*member = read(found); },
+                            [=](const P& parameters) { return write(parameters.*member); }},
+    meaning, flags, id_of_member(member)};
 }
 
 /// `options`: what is written, and the value it stands for.

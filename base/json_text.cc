@@ -27,7 +27,7 @@ constexpr std::size_t most_names = 20000; // of an object
 std::string syntax_error(const std::string& file, const std::string& text, const Json::parse_error& error)
 {
   const std::string before = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const auto line = 1 + std::ranges::count(before, '\n');
   const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;
   const std::string message = error.what();
   const std::size_t colon = message.find(": ");
@@ -42,7 +42,7 @@ nlohmann::ordered_json parse_json(const std::string& file, const std::string& te
   std::vector<std::string> path;
   const auto watch = [&](const int level, const Json::parse_event_t event, Json& parsed) {
     if (level >= most_levels)
-      throw InputError(fmt::format("{}: is nested more than {} levels deep", file, most_levels));
+      throw InputError("{}: is nested more than {} levels deep", file, most_levels);
     if (event == Json::parse_event_t::object_start)
       {
         names.emplace_back();
@@ -52,10 +52,9 @@ nlohmann::ordered_json parse_json(const std::string& file, const std::string& te
       {
         path.back() = parsed.get<std::string>();
         if (!names.back().insert(path.back()).second)
-          throw InputError(
-            fmt::format("{}: {}: is given twice", file, excerpt(fmt::format("{}", fmt::join(path, "/")))));
+          throw InputError("{}: {}: is given twice", file, excerpt(fmt::format("{}", fmt::join(path, "/"))));
         if (names.back().size() > most_names)
-          throw InputError(fmt::format("{}: an object has more than {} names", file, most_names));
+          throw InputError("{}: an object has more than {} names", file, most_names);
       }
     else if (event == Json::parse_event_t::object_end)
       {
@@ -74,7 +73,7 @@ nlohmann::ordered_json parse_json(const std::string& file, const std::string& te
     }
   catch (const Json::out_of_range&)
     {
-      throw InputError(fmt::format("{}: a number is beyond the range of numbers", file));
+      throw InputError("{}: a number is beyond the range of numbers", file);
     }
 }
 } // namespace feldspar

@@ -31,7 +31,7 @@ std::string entry_in_words(const ParameterId& parameter) { return words_in_use()
 std::string in_words(const Work work) { return words_in_use().command(work); }
 
 ParameterError::ParameterError(const ParameterId& which, std::string found, std::string why)
-  : InputError(fmt::format("{}{}{}: {}", in_words(which), found.empty() ? "" : " = ", found, why))
+  : InputError("{}{}{}: {}", in_words(which), found.empty() ? "" : " = ", found, why)
   , parameter(which)
   , value(std::move(found))
   , reason(std::move(why))

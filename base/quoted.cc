@@ -121,8 +121,7 @@ bool is_plain_name(const std::string_view text)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
   };
   return !text.empty() && text.size() <= most_characters && is_letter_or_digit(text.front()) &&
-         std::all_of(text.begin(), text.end(), [&](const char c) {
-           return is_letter_or_digit(c) || c == '.' || c == '_' || c == '-' || c == '+';
-         });
+         std::ranges::all_of(
+           text, [&](const char c) { return is_letter_or_digit(c) || c == '.' || c == '_' || c == '-' || c == '+'; });
 }
 } // namespace feldspar

@@ -52,7 +52,7 @@ int open_regular(const std::filesystem::path& file)
     return descriptor;
   if (descriptor >= 0)
     close(descriptor);
-  throw InputError(fmt::format("{}: {}", file.string(), objection));
+  throw InputError("{}: {}", file.string(), objection);
 }
 } // namespace
 

@@ -7,17 +7,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 #include <system_error>
 
 namespace feldspar
 {
-namespace
-{
-bool is_digit(const char c) { return '0' <= c && c <= '9'; }
-} // namespace
-
 std::string_view trim(const std::string_view text)
 {
   constexpr std::string_view white = " \t\r\n\v\f";
@@ -37,7 +31,7 @@ std::string in_small_letters(const std::string_view text)
 
 std::size_t width_of(const std::string_view text)
 {
-  return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
+  return std::size_t(std::ranges::count_if(text, [](const char c) { return (c & 0xC0) != 0x80; }));
 }
 
 std::vector<std::string> in_lines(const std::string_view words, const std::size_t most, const std::string_view indent)
@@ -93,9 +87,7 @@ bool is_decimal_number(std::string_view text)
     return found;
   };
   const auto skip_digits = [&] {
-    std::size_t n = 0;
-    while (n < text.size() && is_digit(text[n]))
-      ++n;
+    const std::size_t n = std::min(text.find_first_not_of("0123456789"), text.size());
     text.remove_prefix(n);
     return n;
   };
@@ -123,7 +115,7 @@ double parse_number(const std::string_view text)
   const std::string_view unsigned_text = text.substr(text.starts_with('+')); // from_chars knows no plus
   const auto end = unsigned_text.data() + unsigned_text.size();
   if (std::from_chars(unsigned_text.data(), end, value).ec == std::errc::result_out_of_range)
-    throw InputError(fmt::format("{} is beyond the range of numbers", in_quotes(text)));
+    throw InputError("{} is beyond the range of numbers", in_quotes(text));
   return value;
 }
 } // namespace feldspar

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <charconv>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +36,15 @@ std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// Returns whether all of the text is [sign] digits [. digits] [e [sign] digits].
 bool is_decimal_number(std::string_view text);
+
+/// The number that the text is as a whole, as std::from_chars() reads it; none for any other text.
+template <typename T>
+std::optional<T> number_in(const std::string_view text)
+{
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
 
 /// One decimal number; `nan` and `inf` are none. The decimal sign is a point in every locale. Throws InputError.
 double parse_number(std::string_view text);

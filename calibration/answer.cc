@@ -1,5 +1,6 @@
 #include "calibration/answer.h"
 
+#include "base/contains.h"
 #include "base/prefixes.h"
 #include "calibration/open_turns.h"
 #include "laboratory/paired_moments.h"
@@ -187,7 +188,7 @@ std::vector<ParameterAnswer> reported_parameters(const std::vector<Unknown>& unk
 
 double quantile(std::vector<double> values, const double share)
 {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double place = share * double(values.size() - 1);
   const auto below = std::size_t(place);
   const std::size_t above = std::min(below + 1, values.size() - 1);
@@ -259,8 +260,7 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
       std::string helpful_title;
       for (std::size_t j = 0; j < model.n_responses(); ++j)
         {
-          const bool is_target =
-            std::any_of(targets.begin(), targets.end(), [&](const Target& target) { return target.response == j; });
+          const bool is_target = contains(targets, j, &Target::response);
           if (is_target || responses[j].empty())
             continue;
           const double error = model.deviation(j, best.point);

@@ -179,7 +179,7 @@ void write_design(const ResponseModel& model, const std::vector<TestedPoint>& te
 std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& model)
 {
   const bool was_tested =
-    std::any_of(outcome.targets.begin(), outcome.targets.end(), [](const auto& target) { return target.reached; });
+    std::ranges::any_of(outcome.targets, [](const auto& target) { return target.reached.has_value(); });
   std::string text;
   text += fmt::format("{:44} {:>10} {:>19} {:>10}  {}\n", "", "target", was_tested ? "reached" : "predicted",
                       "deviation", "verdict");

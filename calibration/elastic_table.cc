@@ -14,7 +14,7 @@ std::pair<std::size_t, double> place(const std::vector<double>& entries, const d
     return {0, 0.0};
   if (x >= entries.back())
     return {entries.size() - 2, 1.0};
-  const auto above = std::upper_bound(entries.begin(), entries.end(), x);
+  const auto above = std::ranges::upper_bound(entries, x);
   const auto k = std::size_t(above - entries.begin()) - 1;
   return {k, (x - entries[k]) / (entries[k + 1] - entries[k])};
 }

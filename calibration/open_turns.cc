@@ -28,7 +28,7 @@ namespace
 OT::Point as_point(const std::vector<double>& values)
 {
   OT::Point point(values.size());
-  std::copy(values.begin(), values.end(), point.begin());
+  std::ranges::copy(values, point.begin());
   return point;
 }
 

@@ -47,7 +47,7 @@ double ResponseModel::base(const std::size_t j, const TestedPoint& tested) const
 
 std::string ResponseModel::title(const std::string& name) const
 {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Response& one) { return one.name == name; });
+  const auto found = std::ranges::find(all, name, &Response::name);
   return found == all.end() ? name : found->title;
 }
 

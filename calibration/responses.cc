@@ -4,6 +4,7 @@
 #include "laboratory/named_entries.h"
 
 #include "base/append.h"
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "results/fits/hoek_brown.h"
 #include "results/quantities.h"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace feldspar::calibration
 {
@@ -52,7 +52,7 @@ std::optional<double> rock_constant_of(const std::vector<FinishedTest>& of_speci
 bool gives_rock_constant(const std::vector<TestCase>& programme)
 {
   const auto has = [&](const bool confined) {
-    return std::any_of(programme.begin(), programme.end(), [&](const TestCase& test) {
+    return std::ranges::any_of(programme, [&](const TestCase& test) {
       return test.kind.envelope_role == EnvelopeRole::compression && test.kind.takes_confining_pressure == confined;
     });
   };
@@ -159,38 +159,35 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
   };
   for (const std::string& name : wanted.targets)
     {
-      const auto found =
-        std::find_if(responses.begin(), responses.end(), [&](const Response& one) { return one.name == name; });
+      const auto found = std::ranges::find(responses, name, &Response::name);
       if (found == responses.end())
         {
           std::string known;
           for (const Response& one : responses)
             known += (known.empty() ? "" : ", ") + one.name;
-          throw InputError(fmt::format("{}: no test of {} gives {}; they give {}", input_entries::targets.text(),
-                                       input_entries::test_list.text(), name, known));
+          throw InputError("{}: no test of {} gives {}; they give {}", input_entries::targets.text(),
+                           input_entries::test_list.text(), name, known);
         }
       if (!given(*found))
-        throw InputError(fmt::format("{}: the experiment of the reference file has no {}",
-                                     input_entries::targets.text(), found->reference_key));
+        throw InputError("{}: the experiment of the reference file has no {}", input_entries::targets.text(),
+                         found->reference_key);
     }
   std::vector<Target> all;
   for (std::size_t j = 0; j < responses.size(); ++j)
     if (const auto value = given(responses[j]);
-        value && (wanted.targets.empty() ||
-                  std::find(wanted.targets.begin(), wanted.targets.end(), responses[j].name) != wanted.targets.end()))
+        value && (wanted.targets.empty() || contains(wanted.targets, responses[j].name)))
       {
         Target target{j, value->middle(), 0.0, ""};
         if (!(target.value > 0.0))
-          throw InputError(
-            fmt::format("{} of the reference file: is {:g}; a target must be above 0, because deviations "
-                        "are shares of it",
-                        responses[j].reference_key, target.value / responses[j].shown.scale));
+          throw InputError("{} of the reference file: is {:g}; a target must be above 0, because deviations "
+                           "are shares of it",
+                           responses[j].reference_key, target.value / responses[j].shown.scale);
         set_deviation(target, *value, wanted.tolerance);
         all.push_back(target);
       }
   if (all.empty())
-    throw InputError(fmt::format("{}: its experiment has none of the figures that the tests of {} give",
-                                 input_entries::reference_file.text(), input_entries::test_list.text()));
+    throw InputError("{}: its experiment has none of the figures that the tests of {} give",
+                     input_entries::reference_file.text(), input_entries::test_list.text());
   return all;
 }
 } // namespace feldspar::calibration

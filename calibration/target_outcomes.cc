@@ -105,8 +105,7 @@ bool is_worth_another_round(const std::vector<TargetOutcome>& outcomes, const do
 {
   const TargetVerdict verdict = verdict_on(outcomes, tolerance);
   return verdict == TargetVerdict::missed ||
-         (verdict == TargetVerdict::not_decided &&
-          std::all_of(outcomes.begin(), outcomes.end(), [&](const TargetOutcome& outcome) {
+         (verdict == TargetVerdict::not_decided && std::ranges::all_of(outcomes, [&](const TargetOutcome& outcome) {
             const auto half_width = share(outcome, &Statistics::confidence_95);
             return half_width && *half_width <= tolerance;
           }));

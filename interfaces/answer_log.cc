@@ -116,7 +116,7 @@ std::vector<std::uint64_t> AnswerLog::way_to(std::uint64_t token)
   std::vector<std::uint64_t> way;
   for (; token != 0; token = (*this)[token].parent)
     way.push_back(token);
-  std::reverse(way.begin(), way.end());
+  std::ranges::reverse(way);
   return way;
 }
 

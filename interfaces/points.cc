@@ -118,8 +118,7 @@ void Points::go(Point& point, const PointName name, const std::vector<std::uint6
 const Answer& Points::respond(const PointName name, const std::uint64_t parent, const std::span<const double> before,
                               const std::span<const double> strain)
 {
-  const bool is_restarted =
-    parent == 0 && std::any_of(before.begin(), before.end(), [](const double x) { return x != 0.0; });
+  const bool is_restarted = parent == 0 && std::ranges::any_of(before, [](const double x) { return x != 0.0; });
   Point& point = point_of(name, is_restarted);
   if (point.tried && parent == point.answer.token())
     accept_tried(point);
@@ -135,7 +134,7 @@ const Answer& Points::respond(const PointName name, const std::uint64_t parent, 
     if (attempt(point, strain); point.tried)
       {
         AnswerRecord record{name, point.accepted_token, {}};
-        std::copy(strain.begin(), strain.end(), record.strain);
+        std::ranges::copy(strain, record.strain);
         point.answer.states[0] = double(log->add(record));
       }
   return point.answer;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace feldspar
@@ -21,7 +20,7 @@ std::optional<Fragments> fragments_of(const std::vector<GrainPicture>& grains, c
     }
   if (fragments.empty())
     return std::nullopt;
-  const auto n = std::count_if(fragments.begin(), fragments.end(), [](const auto& f) { return f.second.first > 1; });
+  const auto n = std::ranges::count_if(fragments, [](const auto& f) { return f.second.first > 1; });
   return Fragments{std::uint64_t(n), fragments.begin()->second.second / all};
 }
 } // namespace feldspar

@@ -3,8 +3,6 @@
 #include "base/input_error.h"
 #include "base/table/quantity.h"
 
-#include <fmt/format.h>
-
 #include <string_view>
 #include <utility>
 
@@ -28,8 +26,8 @@ std::optional<LoadingRate> read_loading_rate(const std::string_view text)
       {
         // of another dimension
       }
-  throw InputError(fmt::format("must be none, or a rate > 0 of stress, force or travel, e.g. \"{}\", \"{}\" or \"{}\"",
-                               stress_rate.example, force_rate.example, velocity.example));
+  throw InputError("must be none, or a rate > 0 of stress, force or travel, e.g. \"{}\", \"{}\" or \"{}\"",
+                   stress_rate.example, force_rate.example, velocity.example);
 }
 } // namespace
 
@@ -54,13 +52,12 @@ std::vector<Entry<TestParameters>> machine_entries()
        "which moves at the strain rate, and the platens; in the plane, of a specimen 1 m thick; "
        "none: rigid",
        of_grains),
-     {"Compression loading rate",
-      Entry<P>::Text{"MPa/s, kN/s or mm/min", "none, or > 0",
-                     [](P& own, const std::string_view text) { own.loading_rate = read_loading_rate(text); },
-                     [](const P& own) { return own.loading_rate ? own.loading_rate->text : std::string("none"); }},
-      "of a laboratory, in uniaxial and triaxial compression: a stress or a force (in the plane, of a specimen 1 m "
-      "thick) that the machine raises, or the travel of the platens; where it is slower than Compression strain rate "
-      "(for a stress: times the modulus of the particle contacts), the test runs at that, and both are told",
-      of_grains, id_of_member(&P::loading_rate)}});
+     entry::text(
+       "Compression loading rate", &P::loading_rate, "MPa/s, kN/s or mm/min", "none, or > 0", read_loading_rate,
+       [](const std::optional<LoadingRate>& rate) { return rate ? rate->text : std::string("none"); },
+       "of a laboratory, in uniaxial and triaxial compression: a stress or a force (in the plane, of a specimen 1 m "
+       "thick) that the machine raises, or the travel of the platens; where it is slower than Compression strain rate "
+       "(for a stress: times the modulus of the particle contacts), the test runs at that, and both are told",
+       of_grains)});
 }
 } // namespace feldspar

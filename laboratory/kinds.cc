@@ -40,7 +40,7 @@ std::vector<TestCase> test_cases(const std::vector<TestKind>& kinds, const std::
 
 bool any_takes_confining_pressure(const std::vector<TestKind>& kinds)
 {
-  return std::any_of(kinds.begin(), kinds.end(), [](const TestKind& kind) { return kind.takes_confining_pressure; });
+  return std::ranges::any_of(kinds, &TestKind::takes_confining_pressure);
 }
 
 std::string names(const std::vector<TestKind>& kinds)

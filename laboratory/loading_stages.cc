@@ -1,5 +1,6 @@
 #include "laboratory/loading_stages.h"
 
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/csv.h"
@@ -7,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -31,11 +31,10 @@ std::array<std::optional<std::size_t>, columns.size()> places_in(CsvReader& tabl
   for (std::size_t k = 0; k < columns.size(); ++k)
     places[k] = table.find_in_si(columns[k]);
   for (std::size_t c = 0; c < table.header().size(); ++c)
-    if (!table.name_of(c).empty() && std::ranges::find(places, c) == places.end())
-      throw InputError(fmt::format("{}:{}: {} is no column of a loading table; they are {}, or have their unit in "
-                                   "brackets, as in \"axial_stress [MPa]\"",
-                                   file, table.line_of_header(), in_quotes(table.name_of(c)),
-                                   fmt::join(columns, ", ")));
+    if (!table.name_of(c).empty() && !contains(places, c))
+      throw InputError("{}:{}: {} is no column of a loading table; they are {}, or have their unit in "
+                       "brackets, as in \"axial_stress [MPa]\"",
+                       file, table.line_of_header(), in_quotes(table.name_of(c)), fmt::join(columns, ", "));
   return places;
 }
 
@@ -123,11 +122,11 @@ std::vector<LoadingStage> read_loading_stages(const std::filesystem::path& path)
       stage.strain_rate = cell(4);
       stage.lateral_strain = cell(5);
       if (const std::string what = objection(stage, stages.empty() ? nullptr : &stages.back()); !what.empty())
-        throw InputError(fmt::format("{}:{}: stage {}: {}", file, table.line_of_row(), stages.size() + 1, what));
+        throw InputError("{}:{}: stage {}: {}", file, table.line_of_row(), stages.size() + 1, what);
       stages.push_back(stage);
     }
   if (stages.empty())
-    throw InputError(fmt::format("{}: there is no stage below the header", file));
+    throw InputError("{}: there is no stage below the header", file);
   return stages;
 }
 

@@ -41,8 +41,7 @@ void StageWalk::begin_last(const std::uint64_t row, const StageMoment& now)
 
 bool StageWalk::needs_lateral_strain() const
 {
-  return std::any_of(stages.begin(), stages.end(),
-                     [](const LoadingStage& one) { return one.lateral_strain.has_value(); });
+  return std::ranges::any_of(stages, [](const LoadingStage& one) { return one.lateral_strain.has_value(); });
 }
 
 /// The confinement goes evenly with the strain or the time of the stage from one value to the next.

@@ -5,9 +5,6 @@
 #include "coupling/rve/parameters.h"
 #include "library/states.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <span>
 
 /// Cells of representative volumes, as one and as many of them use them.
@@ -59,11 +56,11 @@ template <int dim>
 Voigt<dim> strain_of(const std::span<const double> values)
 {
   if (values.size() != n_voigt<dim>)
-    throw InputError(fmt::format("a strain has {} components; in {} dimensions there must be {}: {}", values.size(),
-                                 dim, n_voigt<dim>, dim == 2 ? "xx, yy, xy" : "xx, yy, zz, yz, xz, xy"));
+    throw InputError("a strain has {} components; in {} dimensions there must be {}: {}", values.size(), dim,
+                     n_voigt<dim>, dim == 2 ? "xx, yy, xy" : "xx, yy, zz, yz, xz, xy");
   const Voigt<dim> strain = Eigen::Map<const Voigt<dim>>(values.data());
   if (!(strain.array().abs() <= largest_strain).all()) // nor is what is not a number
-    throw InputError(fmt::format("a strain has a component that is not in [-{0}, {0}]", largest_strain));
+    throw InputError("a strain has a component that is not in [-{0}, {0}]", largest_strain);
   return strain;
 }
 

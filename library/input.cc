@@ -1,5 +1,4 @@
 #include "app/input/parameter_table.h"
-#include "app/programme/checks.h"
 #include "base/table/quantity.h"
 #include "feldspar_version.h"
 #include "library/states.h"
@@ -56,7 +55,7 @@ GivenEntry entry_of(const std::string_view name, const std::string_view value)
 {
   const std::size_t slash = name.find('/');
   if (slash == name.npos)
-    throw InputError(fmt::format("{}: write \"Section/Entry\", such as \"Specimen/Width\"", name));
+    throw InputError("{}: write \"Section/Entry\", such as \"Specimen/Width\"", name);
   GivenEntry given{std::string(name.substr(0, slash)), std::string(name.substr(slash + 1)), std::string(value),
                    "input"};
   check_section(given.section, given.place);
@@ -111,17 +110,10 @@ void Input::set(const std::string_view entry, const std::string_view value)
     const GivenEntry given = entry_of(entry, value);
     feldspar::Input scratch;
     scratch.folder = of->folder;
-    try
-      {
-        find_parameter(entry)->read(scratch, value);
-      }
-    catch (const InputError& error)
-      {
-        throw GivenEntries({given}).error(given.section, given.entry, error.what());
-      }
+    rephrased([&] { find_parameter(entry)->read(scratch, value); },
+              [&](const std::string& what) { return GivenEntries({given}).error(given.section, given.entry, what); });
   });
-  const auto known =
-    std::find_if(of->given.begin(), of->given.end(), [&](const auto& one) { return one.first == entry; });
+  const auto known = std::ranges::find_if(of->given, [&](const auto& one) { return one.first == entry; });
   if (known == of->given.end())
     of->given.emplace_back(entry, value);
   else

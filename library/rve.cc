@@ -175,7 +175,7 @@ double Rve::first_break(const std::span<const double> direction) const
   return of->alone([&]<int dim>(const Cell<dim>& cell) {
     if (direction.size() != n_voigt<dim> ||
         !std::ranges::all_of(direction, [](const double component) { return std::isfinite(component); }))
-      throw InputError(fmt::format("a direction must have {} finite components in {} dimensions", n_voigt<dim>, dim));
+      throw InputError("a direction must have {} finite components in {} dimensions", n_voigt<dim>, dim);
     return cell.network().first_break(Eigen::Map<const Voigt<dim>>(direction.data())).factor;
   });
 }

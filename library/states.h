@@ -13,8 +13,6 @@
 #include "laboratory/column.h"
 #include "runs/observer.h"
 
-#include <map>
-#include <memory>
 #include <utility>
 #include <variant>
 #include <vector>

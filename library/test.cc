@@ -1,5 +1,6 @@
 #include "app/programme/checks.h"
 #include "base/checksum/fingerprint.h"
+#include "base/mapped.h"
 #include "base/system/hdf5_archive.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
@@ -28,15 +29,14 @@ std::string fit_envelopes(const std::span<const double> sigma_3, const std::span
 {
   return guarded([&] {
     if (sigma_3.size() != sigma_1.size())
-      throw InputError(
-        fmt::format("{} values of sigma_3 have {} of sigma_1; there must be one each", sigma_3.size(), sigma_1.size()));
+      throw InputError("{} values of sigma_3 have {} of sigma_1; there must be one each", sigma_3.size(),
+                       sigma_1.size());
     StrengthData data;
     data.tensile_strength = tensile_strength;
     for (std::size_t k = 0; k < sigma_3.size(); ++k)
       {
         if (!(std::isfinite(sigma_3[k]) && std::isfinite(sigma_1[k]) && sigma_1[k] > sigma_3[k]))
-          throw InputError(
-            fmt::format("point {}: sigma_1 = {:g} Pa must be above sigma_3 = {:g} Pa", k, sigma_1[k], sigma_3[k]));
+          throw InputError("point {}: sigma_1 = {:g} Pa must be above sigma_3 = {:g} Pa", k, sigma_1[k], sigma_3[k]);
         data.points.push_back({sigma_3[k], sigma_1[k]});
         if (sigma_3[k] == 0.0)
           data.uniaxial_compressive_strength = sigma_1[k];
@@ -58,9 +58,9 @@ std::vector<feldspar::Column<CurveSample>> shown_columns()
 TestKind kind_of(const std::string_view name)
 {
   const std::vector<TestKind>& kinds = test_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const TestKind& one) { return one.name == name; });
+  const auto found = std::ranges::find(kinds, name, &TestKind::name);
   if (found == kinds.end())
-    throw InputError(fmt::format("{}: no such test; there are {}", name, names(kinds)));
+    throw InputError("{}: no such test; there are {}", name, names(kinds));
   return *found;
 }
 
@@ -198,12 +198,11 @@ feldspar::Input input_of_test(const Input& input, const Specimen& specimen, cons
   wanted.confinements = {confining_pressure};
   constexpr double largest = 1e11; // beyond the stiffness of any rock
   if (!(confining_pressure >= 0.0 && confining_pressure <= largest))
-    throw InputError(
-      fmt::format("the confining pressure is {:g} Pa; it must lie in [0, {:g}]", confining_pressure, largest));
+    throw InputError("the confining pressure is {:g} Pa; it must lie in [0, {:g}]", confining_pressure, largest);
   if (confining_pressure != 0.0 && !kind.takes_confining_pressure)
-    throw InputError(fmt::format("{} takes no confining pressure", kind.name));
+    throw InputError("{} takes no confining pressure", kind.name);
   if (confining_pressure == 0.0 && kind.takes_confining_pressure)
-    throw InputError(fmt::format("{} needs a confining pressure above 0", kind.name));
+    throw InputError("{} needs a confining pressure above 0", kind.name);
   return wanted;
 }
 } // namespace
@@ -240,8 +239,7 @@ void Test::follow(const Stage& stage)
 {
   of->changing([&](auto& one) {
     if (of->stages.empty())
-      throw InputError(
-        fmt::format("{} follows no stages; begin a test of your own with its first stage", of->test.kind.name));
+      throw InputError("{} follows no stages; begin a test of your own with its first stage", of->test.kind.name);
     const LoadingStage next = stage_of(stage);
     check_stage(next, stage_of(of->stages.back()));
     one.follow(next);
@@ -269,7 +267,7 @@ Test Test::load(const Specimen& specimen, const Input& input, const std::string&
     read_hdf5(file, "a saved test", [&](Hdf5Reader& stored) { stored.text("identity", identity); });
     const auto saved = nlohmann::json::parse(identity, nullptr, false);
     if (!saved.is_object() || !saved.contains("stages"))
-      throw InputError(fmt::format("{}: no saved test, but a checkpoint of the command", file));
+      throw InputError("{}: no saved test, but a checkpoint of the command", file);
     const double pressure = saved["confining_pressure"];
     std::vector<Stage> stages;
     for (const auto& numbers : saved["stages"])
@@ -311,10 +309,7 @@ std::uint64_t Test::n_rows() const
 
 std::vector<std::string> Test::columns() const
 {
-  std::vector<std::string> all;
-  for (const auto& column : shown_columns())
-    all.emplace_back(column.name);
-  return all;
+  return mapped<std::string>(shown_columns(), [](const auto& column) { return column.name; });
 }
 
 std::vector<double> Test::last_row() const

@@ -42,10 +42,9 @@ public:
     constexpr std::size_t n = n_voigt<dim>;
     if (strains.size() != n * size() || stresses.size() != n * size() ||
         (!tangents.empty() && tangents.size() != n * n * size()))
-      throw InputError(fmt::format("{} volumes in {} dimensions have {} x {} strains and stresses and {} x {} x {} "
-                                   "tangents; {}, {} and {} numbers were given",
-                                   size(), dim, size(), n, size(), n, n, strains.size(), stresses.size(),
-                                   tangents.size()));
+      throw InputError("{} volumes in {} dimensions have {} x {} strains and stresses and {} x {} x {} "
+                       "tangents; {}, {} and {} numbers were given",
+                       size(), dim, size(), n, size(), n, n, strains.size(), stresses.size(), tangents.size());
     const Moment<dim>& from = moment(parent);
     Moment<dim> outcome{std::vector<std::shared_ptr<const NetworkState<dim>>>(size()),
                         {strains.begin(), strains.end()},
@@ -88,12 +87,12 @@ public:
               if (!trial.state.intact)
                 outcome.damaged[k] = std::make_shared<const NetworkState<dim>>(std::move(trial.state));
             }
-          std::copy(stress.begin(), stress.end(), stresses.begin() + std::ptrdiff_t(n * k));
+          std::ranges::copy(stress, stresses.begin() + std::ptrdiff_t(n * k));
         }
     });
     if (first_failure < size())
-      throw InputError(fmt::format("volume {} finds no equilibrium at its strain; take a smaller step", first_failure));
-    if (std::none_of(outcome.damaged.begin(), outcome.damaged.end(), [](const auto& state) { return bool(state); }))
+      throw InputError("volume {} finds no equilibrium at its strain; take a smaller step", first_failure);
+    if (std::ranges::none_of(outcome.damaged, [](const auto& state) { return bool(state); }))
       outcome.damaged = {};
     accept(parent);
     moments.emplace(++last, std::move(outcome));
@@ -120,8 +119,7 @@ private:
   {
     const auto found = moments.find(token);
     if (found == moments.end())
-      throw InputError(
-        fmt::format("token {} is not known: it was never handed out, or a later state has taken its place", token));
+      throw InputError("token {} is not known: it was never handed out, or a later state has taken its place", token);
     return found->second;
   }
 
@@ -152,13 +150,12 @@ Volumes::Volumes(const std::span<const Specimen> specimens, const Input& input, 
     if (specimens.empty())
       throw InputError("volumes need at least one specimen");
     if (!assigned.empty() && assigned.size() != n)
-      throw InputError(
-        fmt::format("{} volumes have {} specimens assigned to them; there must be one each", n, assigned.size()));
+      throw InputError("{} volumes have {} specimens assigned to them; there must be one each", n, assigned.size());
     std::vector<std::size_t> of_volumes(assigned.begin(), assigned.end());
     of_volumes.resize(n, 0);
-    if (std::any_of(of_volumes.begin(), of_volumes.end(), [&](const std::size_t k) { return k >= specimens.size(); }))
-      throw InputError(
-        fmt::format("a volume has a specimen that is not there; they are numbered from 0 to {}", specimens.size() - 1));
+    if (std::ranges::any_of(of_volumes, [&](const std::size_t k) { return k >= specimens.size(); }))
+      throw InputError("a volume has a specimen that is not there; they are numbered from 0 to {}",
+                       specimens.size() - 1);
     const feldspar::Input wanted = input_of_rve(input, specimens.front());
     const auto make = [&]<int dim>() {
       std::vector<Network<dim>> networks;

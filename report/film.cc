@@ -4,8 +4,6 @@
 #include "base/whole_file.h"
 #include "report/page/browser.h"
 
-#include <fmt/format.h>
-
 namespace feldspar
 {
 void check_film_is_possible()
@@ -20,13 +18,11 @@ void write_film(const std::filesystem::path& page, const std::filesystem::path& 
   check_film_is_possible();
   const DrawnByBrowser drawn = drawn_by_browser(page, "#film", 1, longest, [] { return false; });
   if (drawn.end == ProgramEnd::hung)
-    throw InputError(
-      fmt::format("--film: {} did not end within {} s", browser(), std::chrono::duration<double>(longest).count()));
+    throw InputError("--film: {} did not end within {} s", browser(), std::chrono::duration<double>(longest).count());
   if (drawn.end != ProgramEnd::done)
-    throw InputError(fmt::format("--film: {} cannot open {}", browser(), page.string()));
+    throw InputError("--film: {} cannot open {}", browser(), page.string());
   if (drawn.files.empty())
-    throw InputError(
-      fmt::format("--film: {} shows no specimen with cracks, or {} has no WebGL 2", page.string(), browser()));
+    throw InputError("--film: {} shows no specimen with cracks, or {} has no WebGL 2", page.string(), browser());
   write_whole_file(file, drawn.files.front());
 }
 } // namespace feldspar

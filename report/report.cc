@@ -141,17 +141,16 @@ std::size_t rank_of_answer(const Picture& picture)
 std::size_t rank_of_curves(const Picture& picture, const std::vector<Series>& all)
 {
   const auto shows = [&](const Series& series) {
-    return series.kind == SeriesKind::laboratory_curve &&
-           std::any_of(picture.panels.begin(), picture.panels.end(), [&](const Chart& panel) {
-             return std::any_of(panel.series.begin(), panel.series.end(),
-                                [&](const ChartSeries& one) { return one.label.starts_with(series.label); });
+    return series.kind == SeriesKind::laboratory_curve && std::ranges::any_of(picture.panels, [&](const Chart& panel) {
+             return std::ranges::any_of(panel.series,
+                                        [&](const ChartSeries& one) { return one.label.starts_with(series.label); });
            });
   };
-  return picture.name.ends_with("_stress") && std::any_of(all.begin(), all.end(), shows) ? 4
-         : picture.name.starts_with("compression_")                                      ? 3
-         : picture.name == "uniaxial_compression_stress"                                 ? 2
-         : picture.name.ends_with("_stress")                                             ? 1
-                                                                                         : 0;
+  return picture.name.ends_with("_stress") && std::ranges::any_of(all, shows) ? 4
+         : picture.name.starts_with("compression_")                           ? 3
+         : picture.name == "uniaxial_compression_stress"                      ? 2
+         : picture.name.ends_with("_stress")                                  ? 1
+                                                                              : 0;
 }
 
 /// Name of a rock in a title, from its name in a reference.
@@ -195,8 +194,8 @@ Page page_of(const Findings& findings, PictureBook& book)
   if (findings.has_many())
     {
       for (std::size_t k = 1; k + 1 < page.sections.size(); ++k)
-        if (std::any_of(page.sections[k].blocks.begin(), page.sections[k].blocks.end(),
-                        [](const PageBlock& block) { return !block.pictures.empty(); }))
+        if (std::ranges::any_of(page.sections[k].blocks,
+                                [](const PageBlock& block) { return !block.pictures.empty(); }))
           page.sections[k].folded = fmt::format("The first {} series, one by one", most_series_in_full);
     }
   else if (!is_first) // the key of many curves would push the tables off the first screen

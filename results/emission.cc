@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -55,9 +54,8 @@ std::vector<EmissionEvent> events_up_to_peak(const TestRecord& record, const std
   std::vector<EmissionEvent> found;
   const auto& curve = record.curve;
   const auto deviator = [&](const CurveSample& row) { return record.kind.deviator(row, record.confining_pressure); };
-  const auto peak = std::find_if(curve.begin(), curve.end(), [&](const CurveSample& row) {
-    return strain_at_peak && record.kind.strain(row) >= *strain_at_peak;
-  });
+  const auto peak = std::ranges::find_if(
+    curve, [&](const CurveSample& row) { return strain_at_peak && record.kind.strain(row) >= *strain_at_peak; });
   if (peak == curve.end())
     return found;
   auto row = curve.begin();
@@ -104,13 +102,13 @@ std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>&
       ++n_of_bin[std::floor((one + 0.5 * step) / bin)];
   if (n_of_bin.empty())
     return std::nullopt;
-  const auto fullest = std::max_element(n_of_bin.begin(), n_of_bin.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto fullest =
+    std::ranges::max_element(n_of_bin, [](const auto& a, const auto& b) { return a.second < b.second; });
   MagnitudeFrequency result{};
   result.completeness = bin * fullest->first - 0.5 * step;
   std::vector<double> counted;
-  std::copy_if(magnitudes.begin(), magnitudes.end(), std::back_inserter(counted),
-               [&](const double one) { return one >= result.completeness; });
+  std::ranges::copy_if(magnitudes, std::back_inserter(counted),
+                       [&](const double one) { return one >= result.completeness; });
   result.n = counted.size();
   if (result.n < fewest)
     return std::nullopt;
@@ -142,8 +140,7 @@ std::optional<MagnitudeFrequency> magnitude_frequency(const std::vector<double>&
 std::vector<double> EmissionCatalogue::magnitudes_to_peak() const
 {
   const bool has_stress = !events.empty() && std::isfinite(events.front().stress);
-  const auto peak =
-    std::max_element(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.stress < b.stress; });
+  const auto peak = std::ranges::max_element(events, [](const auto& a, const auto& b) { return a.stress < b.stress; });
   std::vector<double> magnitudes;
   for (auto event = events.begin(); event != events.end() && (!has_stress || event <= peak); ++event)
     magnitudes.push_back(event->magnitude);

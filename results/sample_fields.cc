@@ -21,7 +21,7 @@ std::string expected() { return fmt::format("a field of `{}`", input_entries::mu
 
 InputError objection_to(const std::filesystem::path& index, const std::string_view what)
 {
-  return InputError(fmt::format("{}: {}", index.string(), what));
+  return InputError("{}: {}", index.string(), what);
 }
 
 InputError objection_to_content(const std::filesystem::path& index)
@@ -133,7 +133,7 @@ SampleFields fields_of(const std::filesystem::path& index, const IndexedTime& on
   const std::size_t n_corners = fields.dimension == 2 ? 4 : 8;
   const bool fits = n_nodes > 0 && nodes.size() == fields.dimension * n_nodes && n_nodes % n_corners == 0 &&
                     of_nodes["displacement"].size() == 3 * n_nodes &&
-                    std::all_of(corners.begin(), corners.end(), [=](const std::uint32_t i) { return i < n_nodes; });
+                    std::ranges::all_of(corners, [=](const std::uint32_t i) { return i < n_nodes; });
   if (!fits)
     throw objection_to(index, "its arrays differ in length");
   fields.nodes = points_of(nodes, fields.dimension);

@@ -50,8 +50,7 @@ std::string listed(const std::vector<std::string>& words) { return fmt::format("
 
 std::string name(const TargetVerdict verdict)
 {
-  return std::find_if(verdict_names.begin(), verdict_names.end(), [&](const auto& one) { return one.first == verdict; })
-    ->second;
+  return std::ranges::find_if(verdict_names, [&](const auto& one) { return one.first == verdict; })->second;
 }
 
 std::string words(const TargetVerdict verdict)
@@ -61,8 +60,7 @@ std::string words(const TargetVerdict verdict)
 
 std::optional<TargetVerdict> verdict_of_name(const std::string& name)
 {
-  const auto found =
-    std::find_if(verdict_names.begin(), verdict_names.end(), [&](const auto& one) { return one.second == name; });
+  const auto found = std::ranges::find_if(verdict_names, [&](const auto& one) { return one.second == name; });
   return found == verdict_names.end() ? std::nullopt : std::optional(found->first);
 }
 
@@ -83,7 +81,7 @@ TargetVerdict verdict_on(const TargetMean& mean, const double tolerance)
 
 TargetVerdict verdict_on(const std::vector<TargetVerdict>& verdicts)
 {
-  const auto has = [&](const TargetVerdict one) { return std::count(verdicts.begin(), verdicts.end(), one) > 0; };
+  const auto has = [&](const TargetVerdict one) { return std::ranges::count(verdicts, one) > 0; };
   if (has(TargetVerdict::missed))
     return TargetVerdict::missed;
   return has(TargetVerdict::not_decided) || verdicts.empty() ? TargetVerdict::not_decided : TargetVerdict::reached;

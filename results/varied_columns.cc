@@ -13,8 +13,8 @@ std::string VariedColumn::heading() const
 
 std::string VariedColumn::cell(const std::vector<VariantSetting>& settings) const
 {
-  const auto found = std::find_if(settings.begin(), settings.end(),
-                                  [this](const VariantSetting& setting) { return setting.entry == entry; });
+  const auto found =
+    std::ranges::find_if(settings, [this](const VariantSetting& setting) { return setting.entry == entry; });
   if (found == settings.end())
     return "";
   return unit ? fmt::format("{}", number_of(*found)->value) : found->value;
@@ -28,8 +28,7 @@ std::vector<VariedColumn> varied_columns(const std::vector<std::vector<VariantSe
       {
         const auto number = number_of(setting);
         const std::optional<std::string> unit = number ? std::optional(number->unit) : std::nullopt;
-        const auto known = std::find_if(columns.begin(), columns.end(),
-                                        [&](const VariedColumn& column) { return column.entry == setting.entry; });
+        const auto known = std::ranges::find(columns, setting.entry, &VariedColumn::entry);
         if (known == columns.end())
           columns.push_back({setting.entry, unit});
         else if (known->unit != unit)

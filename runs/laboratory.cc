@@ -84,7 +84,7 @@ std::vector<std::size_t> longest_first(const std::vector<LaboratoryOrder>& order
   };
   std::vector<std::size_t> sorted(orders.size());
   std::iota(sorted.begin(), sorted.end(), std::size_t(0));
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const auto a, const auto b) { return length(a) > length(b); });
+  std::ranges::stable_sort(sorted, [&](const auto a, const auto b) { return length(a) > length(b); });
   return sorted;
 }
 
@@ -158,12 +158,8 @@ std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders, 
   return tests;
 }
 
-template TestOutcome run_test<2>(const LaboratoryOrder&, const std::function<Specimen<2>()>&, const Checkpoints&,
-                                 std::size_t, RunObserver&);
-template TestOutcome run_test<3>(const LaboratoryOrder&, const std::function<Specimen<3>()>&, const Checkpoints&,
-                                 std::size_t, RunObserver&);
-template std::vector<FinishedTest> run_tests<2>(const std::vector<LaboratoryOrder>&, std::vector<Specimen<2>>&,
-                                                const std::filesystem::path&, RunObserver&);
-template std::vector<FinishedTest> run_tests<3>(const std::vector<LaboratoryOrder>&, std::vector<Specimen<3>>&,
-                                                const std::filesystem::path&, RunObserver&);
+template decltype(run_test<2>) run_test<2>;
+template decltype(run_test<3>) run_test<3>;
+template decltype(run_tests<2>) run_tests<2>;
+template decltype(run_tests<3>) run_tests<3>;
 } // namespace feldspar

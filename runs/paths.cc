@@ -75,8 +75,6 @@ std::vector<FinishedRve<dim>> run_paths(const std::vector<PathOrder<dim>>& order
   return rves;
 }
 
-template std::vector<FinishedRve<2>> run_paths<2>(const std::vector<PathOrder<2>>&, const std::vector<Specimen<2>>&,
-                                                  const std::filesystem::path&, RunObserver&);
-template std::vector<FinishedRve<3>> run_paths<3>(const std::vector<PathOrder<3>>&, const std::vector<Specimen<3>>&,
-                                                  const std::filesystem::path&, RunObserver&);
+template decltype(run_paths<2>) run_paths<2>;
+template decltype(run_paths<3>) run_paths<3>;
 } // namespace feldspar

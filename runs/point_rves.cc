@@ -1,6 +1,7 @@
 #include "runs/point_rves.h"
 
 #include "base/byte_archive.h"
+#include "base/contains.h"
 #include "base/ranks/ranks.h"
 #include "coupling/rve/state_archive.h"
 #include "runs/rve_view.h"
@@ -29,13 +30,13 @@ std::vector<ChosenPoint> chosen(const TestRecord& record, const std::uint64_t n_
   std::vector<std::pair<std::size_t, std::uint64_t>> damaged; // least first
   for (const auto& [number, n] : n_broken)
     damaged.emplace_back(n, number);
-  std::sort(damaged.begin(), damaged.end(), [](const auto& one, const auto& other) {
+  std::ranges::sort(damaged, [](const auto& one, const auto& other) {
     return one.first != other.first ? one.first < other.first : one.second > other.second;
   });
 
   std::vector<ChosenPoint> choices;
   const auto add = [&](const std::string& which, const std::uint64_t number) {
-    if (std::none_of(choices.begin(), choices.end(), [=](const ChosenPoint& one) { return one.number == number; }))
+    if (!contains(choices, number, &ChosenPoint::number))
       choices.push_back({which, number});
   };
   if (!damaged.empty())

@@ -29,7 +29,7 @@ struct Packings
   std::size_t realisation_of(const Network<dim>& network) const
   {
     const auto is_it = [&](const auto& one) { return one.inside.get() == &network || one.at_side.get() == &network; };
-    return std::size_t(std::find_if(realisations.begin(), realisations.end(), is_it) - realisations.begin());
+    return std::size_t(std::ranges::find_if(realisations, is_it) - realisations.begin());
   }
 };
 

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <string>
-#include <vector>
 
 namespace feldspar::calibration
 {

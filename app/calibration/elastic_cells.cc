@@ -125,10 +125,8 @@ Specimen<dim> packing_of(const Input& input, const std::uint64_t seed)
   return make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, seed, end_if_interrupted);
 }
 
-template ElasticTable elastic_constants<2>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
-                                           double, const std::filesystem::path&, Progress&);
-template ElasticTable elastic_constants<3>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
-                                           double, const std::filesystem::path&, Progress&);
-template Specimen<2> packing_of<2>(const Input&, std::uint64_t);
-template Specimen<3> packing_of<3>(const Input&, std::uint64_t);
+template decltype(elastic_constants<2>) elastic_constants<2>;
+template decltype(elastic_constants<3>) elastic_constants<3>;
+template decltype(packing_of<2>) packing_of<2>;
+template decltype(packing_of<3>) packing_of<3>;
 } // namespace feldspar::calibration

@@ -5,8 +5,6 @@
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace feldspar::calibration
@@ -67,40 +65,41 @@ void check_poissons_ratio(const Problem& problem, const CalibrationParameters& w
   // Specimens between walls differ from cells by some hundredths.
   constexpr double of_walls = 0.03;
   if (*target < least.poissons_ratio - of_walls || *target > largest.poissons_ratio + of_walls)
-    throw InputError(
-      fmt::format("an initial Poisson's ratio of {:.3f} cannot be reached: the intact rock has {:.3f} to "
-                  "{:.3f} between the bounds of section Calibration; widen those of Stiffness ratio or "
-                  "Installation gap ratio, or correct the reference file",
-                  *target, least.poissons_ratio, largest.poissons_ratio));
+    throw InputError("an initial Poisson's ratio of {:.3f} cannot be reached: the intact rock has {:.3f} to "
+                     "{:.3f} between the bounds of section Calibration; widen those of Stiffness ratio or "
+                     "Installation gap ratio, or correct the reference file",
+                     *target, least.poissons_ratio, largest.poissons_ratio);
 }
 
 namespace
 {
 void check(const Input& input)
 {
-  const auto refuse = [&](const std::string& what) { throw InputError(what); };
   const SpecimenParameters& specimen = input.specimen;
   if (specimen.joint_law != "flat joint")
-    refuse(fmt::format("Specimen/Joint law = {}: only the flat joint is calibrated", specimen.joint_law));
+    throw InputError("Specimen/Joint law = {}: only the flat joint is calibrated", specimen.joint_law);
   if (!specimen.specimen_file.empty() || !specimen.packing_file.empty())
-    refuse("Specimen: a calibration makes its own packings; name no Packing file and no Specimen file");
+    throw InputError("Specimen: a calibration makes its own packings; name no Packing file and no Specimen file");
   if (input.minerals.form_of_rock() != MineralGrainForm::breakable)
-    refuse("Minerals/Grains: a calibration is of breakable mineral grains; set Grains = breakable");
+    throw InputError("Minerals/Grains: a calibration is of breakable mineral grains; set Grains = breakable");
   if (input.minerals.map)
-    refuse("Minerals/Map: shows one body, and a calibration packs several; give shares and sizes in Minerals/Table");
+    throw InputError(
+      "Minerals/Map: shows one body, and a calibration packs several; give shares and sizes in Minerals/Table");
   if (input.clumps.diameter)
-    refuse("Clumps: a calibration is of grains that move each for itself; take the section out");
+    throw InputError("Clumps: a calibration is of grains that move each for itself; take the section out");
   if (!input.flaws.all().empty())
-    refuse("Flaws: a calibration is of the intact rock; take the section out");
+    throw InputError("Flaws: a calibration is of the intact rock; take the section out");
   if (!input.variants.entries.empty())
-    refuse("Variants/Entry: a calibration has no variants; the bounds of its unknowns are in section Calibration");
+    throw InputError(
+      "Variants/Entry: a calibration has no variants; the bounds of its unknowns are in section Calibration");
   if (input.tests.of<ConfinementParameters>().intermediate_stress)
-    refuse("Tests/Intermediate stress: a calibration presses its specimens alike from all sides; take the entry out");
+    throw InputError(
+      "Tests/Intermediate stress: a calibration presses its specimens alike from all sides; take the entry out");
   if (input.seeds.size() > 1)
-    refuse("Seeds/Seeds: a calibration numbers its packings itself, from one seed on; give that one");
+    throw InputError("Seeds/Seeds: a calibration numbers its packings itself, from one seed on; give that one");
   check_specimen_and_tests(input);
   if (input.reference_file.empty())
-    refuse("Report/Reference file: is needed; it has the laboratory's figures that are to be reached");
+    throw InputError("Report/Reference file: is needed; it has the laboratory's figures that are to be reached");
 }
 
 /// Problems that no fit can solve; a reference file that does not serve is reported by its own name.
@@ -110,8 +109,8 @@ void check_problem(const Problem& problem, const CalibrationParameters& wanted)
     throw InputError("Calibration: all its ratios are fixed; give bounds to one of them at least");
   // A trend, and something left to tell its error by.
   if (const std::size_t least = problem.unknowns.size() + 3; wanted.n_points < least)
-    throw InputError(fmt::format("Calibration/Design points = {}: must be at least {} for {} unknown ratios",
-                                 wanted.n_points, least, problem.unknowns.size()));
+    throw InputError("Calibration/Design points = {}: must be at least {} for {} unknown ratios", wanted.n_points,
+                     least, problem.unknowns.size());
 }
 } // namespace
 

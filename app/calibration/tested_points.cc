@@ -63,7 +63,7 @@ private:
 std::string PointOrder::name() const
 {
   std::string words = stage;
-  std::replace(words.begin(), words.end(), ' ', '_');
+  std::ranges::replace(words, ' ', '_');
   return fmt::format("{}_{}_seed_{}", words, number, seed);
 }
 
@@ -157,12 +157,8 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
   return tested;
 }
 
-template std::string objection_to_packing<2>(const Input&, std::uint64_t, const std::filesystem::path&);
-template std::string objection_to_packing<3>(const Input&, std::uint64_t, const std::filesystem::path&);
-template std::vector<TestedPoint> test_points<2>(const Input&, const std::vector<Response>&,
-                                                 const std::vector<PointOrder>&, const std::filesystem::path&,
-                                                 Progress&);
-template std::vector<TestedPoint> test_points<3>(const Input&, const std::vector<Response>&,
-                                                 const std::vector<PointOrder>&, const std::filesystem::path&,
-                                                 Progress&);
+template decltype(objection_to_packing<2>) objection_to_packing<2>;
+template decltype(objection_to_packing<3>) objection_to_packing<3>;
+template decltype(test_points<2>) test_points<2>;
+template decltype(test_points<3>) test_points<3>;
 } // namespace feldspar::calibration

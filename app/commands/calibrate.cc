@@ -65,7 +65,7 @@ public:
 
     Fit fit = fit_about(UnitPoint(problem.unknowns.size(), 0.5), 0.5, model, start);
     if (const auto predicted = predicted_outcomes(problem.targets, fit, model, wanted.tolerance, wanted.n_packings);
-        std::any_of(predicted.begin(), predicted.end(), [](const auto& one) { return one.is_out_of_reach; }))
+        std::ranges::any_of(predicted, [](const auto& one) { return one.is_out_of_reach; }))
       return end_out_of_reach(model, fit, predicted);
 
     fit = steps(model, fit);
@@ -158,8 +158,7 @@ private:
           if (objections[k].empty())
             seeds.push_back(tried[k]);
           else if (++n_left_out == most_left_out)
-            throw InputError(
-              fmt::format("{} ({} of the first {} packings)", objections[k], n_left_out, n_left_out + seeds.size()));
+            throw InputError("{} ({} of the first {} packings)", objections[k], n_left_out, n_left_out + seeds.size());
           else
             progress.remark(fmt::format("Packing {} is left out: {}.", tried[k], objections[k]));
       }
@@ -221,7 +220,7 @@ private:
           }
         else
           half_width *= 0.5; // the region in which the corrections hold was too large
-        if (std::all_of(outcomes.begin(), outcomes.end(), is_near))
+        if (std::ranges::all_of(outcomes, is_near))
           break;
         model.correct(corrections);
         fit = fit_about(best.place.point, half_width, model, best.place);

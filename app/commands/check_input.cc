@@ -144,7 +144,7 @@ void check_for_all(const Input& input, const std::filesystem::path& file)
   else
     print_result("{}: OK for feldspar {}\n{}", file.string(), fmt::join(takers, ", "), lines);
   if (!any_tests_rock)
-    throw InputError(fmt::format("{}: no command that tests rock takes it; the reasons stand above", file.string()));
+    throw InputError("{}: no command that tests rock takes it; the reasons stand above", file.string());
 }
 } // namespace
 
@@ -166,8 +166,7 @@ void check_input(const std::filesystem::path& file, const std::vector<std::strin
       print_remarks(unusual);
       return;
     }
-  const auto wanted = std::find_if(commands_with_input.begin(), commands_with_input.end(),
-                                   [&](const CommandWithInput& one) { return one.name == command; });
+  const auto wanted = std::ranges::find(commands_with_input, command, &CommandWithInput::name);
   const Remarks remarks = checks[std::size_t(wanted - commands_with_input.begin())].of(input, file);
   print_result("{}: OK for feldspar {}\n", file.string(), command);
   print_remarks(remarks);

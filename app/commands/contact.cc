@@ -133,9 +133,9 @@ std::string response(const Law& law, const typename Law::Parameters& joint, cons
       const auto sum = law.template update<double>(face, elements, motion, segments);
       const auto append = [&](const double value, const char* comma = ",") {
         if (!std::isfinite(value))
-          throw InputError(fmt::format("{}: row {} below the header: the response is beyond the range of numbers: a "
-                                       "displacement, a rotation or a stiffness is far too large",
-                                       input.contact.path_file, row + 1));
+          throw InputError("{}: row {} below the header: the response is beyond the range of numbers: a "
+                           "displacement, a rotation or a stiffness is far too large",
+                           input.contact.path_file, row + 1);
         fmt::format_to(std::back_inserter(table), "{}{}", comma, value + 0.0); // adding zero turns -0 into 0
       };
       append(sum.normal_force, "");
@@ -176,13 +176,12 @@ std::string response(const Input& input)
 std::string contact_response(const Input& input, const std::filesystem::path& input_file)
 {
   if (input.contact.path_file.empty())
-    throw InputError(
-      fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", input_file.string()));
+    throw InputError("{}: Contact path/File: is missing; name a CSV file of displacements", input_file.string());
   for (const auto& [section, entry] :
        {std::pair("Clumps", "Diameter"), std::pair("Mineral grains", "Mean size"), std::pair("Minerals", "Table")})
     if (const std::string value = find_parameter(section, entry)->write(input); value != none)
-      throw InputError(fmt::format("{}: {}/{} = {}: one contact of two grains has no use for it; leave it out",
-                                   input_file.string(), section, entry, value));
+      throw InputError("{}: {}/{} = {}: one contact of two grains has no use for it; leave it out", input_file.string(),
+                       section, entry, value);
   return input.specimen.dimension == 2 ? response<2>(input) : response<3>(input);
 }
 

@@ -10,7 +10,7 @@
 #include "app/run/provenance.h"
 #include "base/append.h"
 #include "base/input_error.h"
-#include "base/ranks/ranks.h"
+#include "base/mapped.h"
 #include "dem/lab/seating.h"
 #include "report/sections/study_text.h"
 #include "results/folder/result_folder.h"
@@ -53,8 +53,8 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
   for (const Variant& variant : variants)
     {
       std::vector<FinishedTest> of_variant;
-      std::copy_if(tests.begin(), tests.end(), std::back_inserter(of_variant),
-                   [&](const FinishedTest& test) { return test.variant == variant.label; });
+      std::ranges::copy_if(tests, std::back_inserter(of_variant),
+                           [&](const FinishedTest& test) { return test.variant == variant.label; });
       if (!variant.label.empty())
         text += fmt::format("{}\n", variant.label);
       text += describe_tests(of_variant, reference_of(variant.input), envelopes, any_has_flaws(tests));
@@ -80,8 +80,7 @@ void share_out_tests(const Run& run, Progress& progress)
     const auto tests = own_tests(std::vector<Specimen<dim>>(plan.orders.size()));
     auto specimens = provide_specimens_of<dim>(tests, plan, run.folder, progress);
     // The first process meets again what cannot be made, and reports it.
-    if (!tests.empty() &&
-        std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.is_periodic(); }))
+    if (!tests.empty() && std::ranges::none_of(specimens, [](const auto& specimen) { return specimen.is_periodic(); }))
       run_programme(plan, own_tests(specimens), specimens, run.folder, progress, false);
     end_if_interrupted();
   });
@@ -127,16 +126,14 @@ RunEnd test_alone(const Run& run, Progress& progress)
   const auto has_nothing = [](const FinishedTest& test) {
     return !test.record.failure.empty() && test.record.curve.empty();
   };
-  if (!tests.empty() && std::all_of(tests.begin(), tests.end(), has_nothing))
+  if (!tests.empty() && std::ranges::all_of(tests, has_nothing))
     throw InputError(tests.front().record.failure);
 
   // Report.
   const bool was_interrupted = interrupted();
   auto [envelopes, missing] =
     write_and_report(provenance(input, input_file), tests, input.reference_file, folder, progress);
-  std::vector<SpecimenReport> bodies;
-  for (const auto& specimen : specimens)
-    bodies.push_back(specimen.report);
+  const auto bodies = mapped<SpecimenReport>(specimens, [](const auto& specimen) { return specimen.report; });
   append(missing, beside_reference_body(input, bodies));
   write_log(folder, describe_run(plan.variants, specimens, tests, envelopes, missing), run.quiet);
   // Pictures are still to be made if the run was interrupted while it drew them.

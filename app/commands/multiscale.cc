@@ -64,14 +64,11 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     shown.push_back({one.name, 1.0, BoardTest{one.test, &input, cost_of_sample(one.test.kind, input.sample)}});
   RunBoard board(progress, "tests", shown);
   const auto tests = run_samples(planned, run.folder, board);
-  progress.finish(
-    fmt::format("{} of {} done",
-                std::count_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.was_made(); }),
-                planned.size()));
+  progress.finish(fmt::format("{} of {} done", std::ranges::count_if(tests, &FinishedTest::was_made), planned.size()));
 
   if (!tests.empty() &&
-      std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); }))
-    throw InputError(fmt::format("{}: {}", run.input_file.string(), tests.front().record.failure));
+      std::ranges::all_of(tests, [](const FinishedTest& test) { return !test.record.failure.empty(); }))
+    throw InputError("{}: {}", run.input_file.string(), tests.front().record.failure);
 
   // Report.
   const bool was_interrupted = ranks::any(interrupted());

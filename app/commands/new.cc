@@ -1,7 +1,9 @@
 #include "app/commands/commands.h"
 #include "app/input/parameter_table.h"
 #include "app/screen/print_result.h"
+#include "base/contains.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/text.h"
 #include "base/whole_file.h"
 #include "results/quantities.h"
@@ -85,8 +87,7 @@ std::string input_text(const Template& wanted, const std::string& reference_file
       text += fmt::format("\nsubsection {}\n", section);
       for (const Parameter& parameter : parameter_table())
         if (const auto& bodies = parameter.flags.bodies;
-            parameter.section == section && parameter.flags.basic &&
-            (bodies.empty() || std::find(bodies.begin(), bodies.end(), wanted.body) != bodies.end()))
+            parameter.section == section && parameter.flags.basic && (bodies.empty() || contains(bodies, wanted.body)))
           {
             const auto value = values.find(parameter.name());
             text += entry_text(parameter, value == values.end() ? nullptr : &value->second);
@@ -120,24 +121,17 @@ std::string reference_text()
 }
 } // namespace
 
-std::vector<std::string> names_of_templates()
-{
-  std::vector<std::string> names;
-  for (const Template& one : templates())
-    names.emplace_back(one.name);
-  return names;
-}
+std::vector<std::string> names_of_templates() { return mapped<std::string>(templates(), &Template::name); }
 
 int run_new(const NewOptions& options)
 {
-  const Template& wanted = *std::find_if(templates().begin(), templates().end(),
-                                         [&](const Template& one) { return one.name == options.name; });
+  const Template& wanted = *std::ranges::find(templates(), options.name, &Template::name);
   const std::filesystem::path folder = options.output.value_or("");
   const std::filesystem::path input = folder / (options.name + ".prm");
   const std::filesystem::path reference = folder / (options.name + "-reference.json");
   for (const auto& file : {input, reference})
     if (std::filesystem::exists(std::filesystem::symlink_status(file)))
-      throw InputError(fmt::format("{}: is there already; name another folder by --output", file.string()));
+      throw InputError("{}: is there already; name another folder by --output", file.string());
   if (!folder.empty())
     std::filesystem::create_directories(folder);
   write_whole_file(reference, reference_text());

@@ -72,8 +72,8 @@ void print_found(const std::string& word)
         found = true;
       }
   if (!found)
-    throw InputError(fmt::format("{}: no such section, and no entry has it in its name, meaning or choices{}",
-                                 excerpt(word), suggestion(word, section_names())));
+    throw InputError("{}: no such section, and no entry has it in its name, meaning or choices{}", excerpt(word),
+                     suggestion(word, section_names()));
 }
 } // namespace
 

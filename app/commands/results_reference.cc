@@ -32,7 +32,7 @@ std::string bound_of(const TestQuantity& quantity)
 void begin(const std::string_view title, const std::string_view introduction, const std::string_view header)
 {
   print_result("\n## {}\n\n{}\n\n{}\n|", title, introduction, header);
-  for (auto n = std::count(header.begin(), header.end(), '|'); n > 1; --n)
+  for (auto n = std::ranges::count(header, '|'); n > 1; --n)
     print_result("---|");
   print_result("\n");
 }

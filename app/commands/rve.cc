@@ -10,6 +10,7 @@
 #include "app/run/interrupt.h"
 #include "app/run/provenance.h"
 #include "app/run/run_record.h"
+#include "base/mapped.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/rve_file.h"
 #include "dem/minerals/minerals.h"
@@ -70,7 +71,7 @@ std::vector<PathOrder<dim>> plan_paths(const Input& input, const RunPlan& plan)
   std::vector<PathOrder<dim>> paths;
   for (std::size_t v = 0; v < plan.variants.size(); ++v)
     for (std::size_t s = 0; s < plan.orders.size(); ++s)
-      if (std::count(plan.orders[s].variants.begin(), plan.orders[s].variants.end(), v) > 0)
+      if (std::ranges::count(plan.orders[s].variants, v) > 0)
         paths.push_back(path(plan.variants[v], s));
   return paths;
 }
@@ -80,9 +81,7 @@ std::vector<FinishedRve<dim>> run_paths_on_board(const std::vector<PathOrder<dim
                                                  const std::vector<Specimen<dim>>& specimens,
                                                  const std::filesystem::path& folder, Progress& progress)
 {
-  std::vector<BoardPart> parts;
-  for (const auto& path : paths)
-    parts.push_back({path.name});
+  const auto parts = mapped<BoardPart>(paths, [&](const auto& path) { return BoardPart{path.name}; });
   RunBoard board(progress, "paths", parts);
   auto rves = run_paths(paths, specimens, folder, board);
   progress.finish(fmt::format("{} RVE(s)", rves.size()));
@@ -152,9 +151,7 @@ RunEnd strain_alone(const Run& run, Progress& progress)
   std::string text;
   for (const auto& rve : rves)
     text += describe(rve) + "\n";
-  std::vector<SpecimenReport> bodies;
-  for (const auto& specimen : specimens)
-    bodies.push_back(specimen.report);
+  const auto bodies = mapped<SpecimenReport>(specimens, [](const auto& specimen) { return specimen.report; });
   for (const std::string& line : beside_reference_body(input, bodies))
     text += line + "\n";
   write_log(run.folder, text, run.quiet);

@@ -5,6 +5,7 @@
 #include "app/run/run_record.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
+#include "base/text.h"
 #include "coupling/rve/rve_file.h"
 #include "results/folder/field_output.h"
 #include "runs/rve_view.h"
@@ -14,7 +15,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -32,14 +32,12 @@ struct RvePlace
 RvePlace place_of(const std::string& text)
 {
   const auto number = [&](const std::string_view part) {
-    unsigned int value = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    if (error != std::errc() || end != part.data() + part.size())
-      throw InputError(
-        fmt::format("--extract {}: must be CELL:POINT, the number of a cell as ParaView shows it and of a "
-                    "point in it, both from 0, e.g. 3:0",
-                    text));
-    return value;
+    const auto value = number_in<unsigned int>(part);
+    if (!value)
+      throw InputError("--extract {}: must be CELL:POINT, the number of a cell as ParaView shows it and of a "
+                       "point in it, both from 0, e.g. 3:0",
+                       text);
+    return *value;
   };
   const std::string_view all = text;
   const std::size_t colon = std::min(all.find(':'), all.size());
@@ -119,7 +117,7 @@ int extract_rve(const std::filesystem::path& folder, const std::string& cell_and
         print_result("{}", text);
     }
   if (n_extracted == 0)
-    throw InputError(fmt::format("--extract {}: no test in {} has a state yet", cell_and_point, folder.string()));
+    throw InputError("--extract {}: no test in {} has a state yet", cell_and_point, folder.string());
   return 0;
 }
 } // namespace feldspar

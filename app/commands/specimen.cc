@@ -5,13 +5,13 @@
 #include "app/run/output_folder.h"
 #include "app/screen/print_result.h"
 #include "app/screen/progress.h"
+#include "base/contains.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
 #include "dem/genesis/packing_export.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <vector>
@@ -51,7 +51,7 @@ int make_specimens(const CommonOptions& options, const Input& input)
         print_result("\nSeed {}\n{}{}", specimens[k].seed, describe(specimens[k].report), describe(specimens[k].flaws));
       print_result("{}\n", (folder.path() / (plan.orders[k].name + ".h5")).string());
       for (const PackingForm& form : packing_forms)
-        if (std::ranges::find(options.packings, form.name) != options.packings.end())
+        if (contains(options.packings, form.name))
           {
             const auto file = folder.path() / "packings" / (plan.orders[k].name + std::string(form.ending));
             std::filesystem::create_directories(file.parent_path());

@@ -1,4 +1,5 @@
 #include "app/input/input_entries.h"
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <numbers>
 
 /// The entries of a calibration that have a form of their own: its targets, and the bounds of its unknowns.
@@ -27,10 +27,9 @@ std::vector<std::string> read_targets(const std::string_view text)
   for (const std::string_view piece : split_at_commas(text))
     {
       if (!is_plain_name(piece))
-        throw InputError(
-          fmt::format("{} is no name of a figure; an example is youngs_modulus, tensile_strength", in_quotes(piece)));
-      if (std::find(targets.begin(), targets.end(), piece) != targets.end())
-        throw InputError(fmt::format("{} is listed twice", piece));
+        throw InputError("{} is no name of a figure; an example is youngs_modulus, tensile_strength", in_quotes(piece));
+      if (contains(targets, piece))
+        throw InputError("{} is listed twice", piece);
       targets.emplace_back(piece);
     }
   return targets;
@@ -54,12 +53,12 @@ Entry<CalibrationParameters> bounds_entry(const std::string_view name,
       for (const std::string_view piece : split_at_commas(text))
         values.push_back(parse_number(piece));
     if (values.size() != 2 || !(values[0] < values[1]))
-      throw InputError(
-        fmt::format("must be fixed, or the lower and the upper bound, e.g. {}", dimension ? "0, 40 deg" : "0.2, 1.2"));
+      throw InputError("must be fixed, or the lower and the upper bound, e.g. {}",
+                       dimension ? "0, 40 deg" : "0.2, 1.2");
     for (const double value : values)
       if (!range.contains(dimension ? value * 180.0 / std::numbers::pi : value))
-        throw InputError(fmt::format("bounds must lie in {}{:g}, {:g}{}{}{}", range.left, range.lower, range.upper,
-                                     range.right, unit.empty() ? "" : " ", unit));
+        throw InputError("bounds must lie in {}{:g}, {:g}{}{}{}", range.left, range.lower, range.upper, range.right,
+                         unit.empty() ? "" : " ", unit);
     wanted.*member = Bounds{values[0], values[1]};
   };
   const auto write = [=](const P& wanted) {
@@ -87,15 +86,11 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
                        "strength_at_P_MPa; all: those that the tests give",
                        fmt::join(names, ", "));
   }();
-  return {{"Targets",
-           Entry<P>::Text{"", "all, or names of figures",
-                          [](P& wanted, const std::string_view text) { wanted.targets = read_targets(text); },
-                          [](const P& wanted) {
-                            return wanted.targets.empty() ? std::string(all_targets)
-                                                          : fmt::format("{}", fmt::join(wanted.targets, ", "));
-                          }},
-           meaning_of_targets,
-           {.basic = true}},
+  const auto write = [](const std::vector<std::string>& targets) {
+    return targets.empty() ? std::string(all_targets) : fmt::format("{}", fmt::join(targets, ", "));
+  };
+  return {entry::text("Targets", &P::targets, "", "all, or names of figures", read_targets, write, meaning_of_targets,
+                      {.basic = true}),
           bounds_entry("Stiffness ratio", &P::stiffness_ratio, {'(', 0.0, most, ')'}, nullptr, "of the joints"),
           bounds_entry("Cohesion ratio", &P::cohesion_ratio, {'(', 0.0, most, ')'}, nullptr,
                        "bond cohesion over bond tensile strength"),

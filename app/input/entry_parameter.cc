@@ -1,16 +1,15 @@
 #include "app/input/entry_parameter.h"
 
 #include "app/input/nearest_name.h"
-#include "app/input/parameter_table.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "base/table/quantity.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -22,23 +21,9 @@ namespace
 {
 const Dimension& dimension_of(const Measure measure)
 {
-  switch (measure)
-    {
-    case Measure::stress:
-      return stress;
-    case Measure::length:
-      return length;
-    case Measure::angle:
-      return angle;
-    case Measure::density:
-      return density;
-    case Measure::stiffness:
-      return plane_stiffness;
-    case Measure::spring:
-      return spring_stiffness;
-    default:
-      return rate;
-    }
+  constexpr const Dimension* dimensions[] = {nullptr, &stress,          &length,          &angle, &density,
+                                             &rate,   &plane_stiffness, &spring_stiffness}; // by their enumerators
+  return *dimensions[std::size_t(measure)];
 }
 
 /// Text of a range with the unit behind each number.
@@ -89,11 +74,10 @@ Text text_form(const Entry<Input>::Integer& integer)
   const std::string allowed = fmt::format("integer in {}", text_of(integer.range, ""));
   return {"", allowed,
           [allowed, integer](Input& input, const std::string_view text) {
-            unsigned int value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error != std::errc() || end != text.data() + text.size() || !integer.range.contains(value))
-              throw InputError(fmt::format("must be an {}", allowed));
-            integer.place.at(input) = value;
+            const auto value = number_in<unsigned int>(text);
+            if (!value || !integer.range.contains(*value))
+              throw InputError("must be an {}", allowed);
+            integer.place.at(input) = *value;
           },
           [integer](const Input& input) { return std::to_string(integer.place.get(input)); }};
 }
@@ -118,9 +102,9 @@ Text text_form(const Entry<Input>::Choice& choice)
     range += fmt::format(" or {}", options[k]);
   return {"", range,
           [range, choice](Input& input, const std::string_view text) {
-            const auto found = std::find(choice.options.begin(), choice.options.end(), text);
+            const auto found = std::ranges::find(choice.options, text);
             if (found == choice.options.end())
-              throw InputError(fmt::format("must be {}{}", range, nearest_name(text, choice.options)));
+              throw InputError("must be {}{}", range, nearest_name(text, choice.options));
             choice.set(input, std::size_t(found - choice.options.begin()));
           },
           [choice](const Input& input) { return std::string(choice.options[choice.get(input)]); }};
@@ -135,7 +119,7 @@ double read_number(const std::string_view text, const Measure measure, const std
   if (measure == Measure::number)
     {
       if (text.find(' ') != std::string_view::npos)
-        throw InputError(fmt::format("is a number without unit; it {}", demand));
+        throw InputError("is a number without unit; it {}", demand);
       const double value = with_usual_exponent(parse_number(text));
       if (!range.contains(value))
         throw InputError(demand);
@@ -158,10 +142,10 @@ std::string readable_file(const Input& input, const std::string_view text)
   const std::filesystem::path path = input.file_named(text);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
-    throw InputError(fmt::format("there is no file {}; a path is taken from the folder of the input",
-                                 excerpt(path.string(), longest_path)));
+    throw InputError("there is no file {}; a path is taken from the folder of the input",
+                     excerpt(path.string(), longest_path));
   if (const std::string objection = objection_to_reading(path); !objection.empty())
-    throw InputError(fmt::format("{} {}", excerpt(path.string(), longest_path), objection));
+    throw InputError("{} {}", excerpt(path.string(), longest_path), objection);
   return path.string();
 }
 

@@ -53,14 +53,14 @@ class Quantities
   {
     const auto found = texts.find(word);
     if (found == texts.end())
-      throw InputError(fmt::format("{} is missing", word));
+      throw InputError("{} is missing", word);
     try
       {
         return from_text(std::string_view(found->second));
       }
     catch (const InputError& error)
       {
-        throw InputError(fmt::format("{} {}: {}", word, excerpt(found->second), error.what()));
+        throw InputError("{} {}: {}", word, excerpt(found->second), error.what());
       }
   }
 
@@ -81,7 +81,7 @@ public:
         while (next < words.size() && !is_known(words[next]))
           ++next;
         if (!texts.emplace(word, joined(words, first + 1, next)).second)
-          throw InputError(fmt::format("{} is given twice", word));
+          throw InputError("{} is given twice", word);
         first = next;
       }
   }
@@ -126,8 +126,8 @@ public:
     return read(word, [](const std::string_view text) {
       const auto values = parse_quantities(text, length);
       if (values.size() != dim)
-        throw InputError(fmt::format("has {} coordinate(s); there must be {}, e.g. \"{} mm\"", values.size(),
-                                     dim == 2 ? "2" : "3", dim == 2 ? "25, 50" : "25, 25, 50"));
+        throw InputError("has {} coordinate(s); there must be {}, e.g. \"{} mm\"", values.size(), dim == 2 ? "2" : "3",
+                         dim == 2 ? "25, 50" : "25, 25, 50");
       Vector<dim> point;
       std::copy(values.begin(), values.end(), point.data());
       return point;
@@ -139,11 +139,11 @@ public:
     return read(word, [=](const std::string_view text) {
       const auto values = parse_quantities(text, length);
       if (values.size() % 2 != 0 || values.size() < 2 * at_least)
-        throw InputError(fmt::format("has {} numbers; there must be x and y of {} points or more, e.g. "
-                                     "\"10, 20, 30, 25, 35, 40 mm\"",
-                                     values.size(), at_least));
+        throw InputError("has {} numbers; there must be x and y of {} points or more, e.g. "
+                         "\"10, 20, 30, 25, 35, 40 mm\"",
+                         values.size(), at_least);
       if (values.size() > 2 * most_corners)
-        throw InputError(fmt::format("has {} points; there must be at most {}", values.size() / 2, most_corners));
+        throw InputError("has {} points; there must be at most {}", values.size() / 2, most_corners);
       std::vector<Vector<2>> points;
       for (std::size_t k = 0; k < values.size(); k += 2)
         {
@@ -162,7 +162,7 @@ public:
     if (found == texts.end())
       return false;
     if (!found->second.empty())
-      throw InputError(fmt::format("{} stands alone; {} follows it", word, excerpt(found->second)));
+      throw InputError("{} stands alone; {} follows it", word, excerpt(found->second));
     return true;
   }
 
@@ -244,7 +244,7 @@ std::optional<SmoothSides> read_smooth_sides(const Quantities& given)
     {
       for (const std::string_view word : words_of_smooth_sides)
         if (given.has(word))
-          throw InputError(fmt::format("{} is of smooth sides; say smooth before it", word));
+          throw InputError("{} is of smooth sides; say smooth before it", word);
       return std::nullopt;
     }
   SmoothSides sides;
@@ -274,7 +274,7 @@ std::map<std::string, SmoothSides> read_layers(const std::string_view text)
           fmt::format("{} is no layer with smooth sides; write LAYER: smooth, e.g. bedding: smooth friction 0.4",
                       in_quotes(piece)));
       if (!layers.emplace(layer, *sides).second)
-        throw InputError(fmt::format("{} is given twice", layer));
+        throw InputError("{} is given twice", layer);
     }
   return layers;
 }
@@ -330,7 +330,7 @@ Shape read_disc_set(const Quantities& given)
   const double concentration = given.number("fisher", {'(', 0.0, 1e6, ']'});
   const std::uint64_t n = given.count("number");
   if (n < 1 || n > most_discs)
-    throw InputError(fmt::format("number: must be from 1 to {}", most_discs));
+    throw InputError("number: must be from 1 to {}", most_discs);
   DiscSet set{read_normal(given), concentration, given.positive_length("radius"), n};
   if (given.has("seed"))
     set.seed = given.count("seed");
@@ -373,7 +373,7 @@ Shape parse_shape(const std::string_view text)
         }
       catch (const InputError& error)
         {
-          throw InputError(fmt::format("{}: {}", form.name, error.what()));
+          throw InputError("{}: {}", form.name, error.what());
         }
     }
   std::vector<std::string_view> names;
@@ -391,14 +391,14 @@ std::vector<Shape> parse_shapes(std::string_view text)
     {
       const std::size_t bar = text.find('|');
       if (shapes.size() == most_shapes)
-        throw InputError(fmt::format("must be at most {} shapes", most_shapes));
+        throw InputError("must be at most {} shapes", most_shapes);
       try
         {
           shapes.push_back(parse_shape(text.substr(0, bar)));
         }
       catch (const InputError& error)
         {
-          throw InputError(fmt::format("shape {}, {}", shapes.size() + 1, error.what()));
+          throw InputError("shape {}, {}", shapes.size() + 1, error.what());
         }
       if (bar == std::string_view::npos)
         return shapes;

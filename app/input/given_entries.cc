@@ -2,11 +2,11 @@
 
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
+#include "base/contains.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "base/text.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -24,21 +24,21 @@ std::string read_text(const std::filesystem::path& file)
   std::error_code ignored;
   constexpr std::uintmax_t largest = 16 << 20;
   if (const std::uintmax_t size = std::filesystem::file_size(file, ignored); !ignored && size > largest)
-    throw InputError(fmt::format("{}: has {} bytes; an input file has at most {}", file.string(), size, largest));
+    throw InputError("{}: has {} bytes; an input file has at most {}", file.string(), size, largest);
   std::string text(std::istreambuf_iterator<char>(stream), {});
   if (text.starts_with("\xEF\xBB\xBF"))
     text.erase(0, 3);
 
   const auto is_binary = [](const unsigned char c) { return c < 0x20 && (c < '\t' || c > '\r'); };
-  if (std::any_of(text.begin(), text.end(), is_binary))
-    throw InputError(fmt::format("{}: is not a text file", file.string()));
+  if (std::ranges::any_of(text, is_binary))
+    throw InputError("{}: is not a text file", file.string());
   try
     {
       static_cast<void>(nlohmann::json(text).dump()); // which checks the encoding
     }
   catch (const nlohmann::json::type_error&)
     {
-      throw InputError(fmt::format("{}: is not encoded in UTF-8", file.string()));
+      throw InputError("{}: is not encoded in UTF-8", file.string());
     }
   return text;
 }
@@ -49,8 +49,7 @@ GivenEntry setting_of(const std::string& text)
   const std::size_t equals = text.find('=');
   const std::size_t slash = text.find('/');
   if (equals == std::string::npos || slash > equals)
-    throw InputError(
-      fmt::format("--set {}: write \"Section/Entry = value\", e.g. \"Specimen/Width = 30 mm\"", in_quotes(text)));
+    throw InputError("--set {}: write \"Section/Entry = value\", e.g. \"Specimen/Width = 30 mm\"", in_quotes(text));
   const std::string_view all = text;
   GivenEntry given{std::string(trim(all.substr(0, slash))),
                    std::string(trim(all.substr(slash + 1, equals - slash - 1))),
@@ -64,15 +63,15 @@ GivenEntry setting_of(const std::string& text)
 void check_section(const std::string& section, const std::string& place)
 {
   const std::vector<std::string_view> sections = section_names();
-  if (std::find(sections.begin(), sections.end(), section) == sections.end())
-    throw InputError(fmt::format("{}: {}: no such section{}", place, excerpt(section), suggestion(section, sections)));
+  if (!contains(sections, section))
+    throw InputError("{}: {}: no such section{}", place, excerpt(section), suggestion(section, sections));
 }
 
 void check_name(const GivenEntry& given)
 {
   if (!find_parameter(given.section, given.entry))
-    throw InputError(fmt::format("{}: {}/{}: no such entry{}", given.place, given.section, excerpt(given.entry),
-                                 suggestion(given.entry, entry_names(given.section))));
+    throw InputError("{}: {}/{}: no such entry{}", given.place, given.section, excerpt(given.entry),
+                     suggestion(given.entry, entry_names(given.section)));
 }
 
 GivenEntries::GivenEntries(const std::filesystem::path& file, const std::vector<std::string>& settings)
@@ -84,18 +83,17 @@ GivenEntries::GivenEntries(const std::filesystem::path& file, const std::vector<
   else if (file.extension() == ".json")
     entries = scan_json(name, text);
   else
-    throw InputError(fmt::format("{}: the name must end in .prm or .json", name));
+    throw InputError("{}: the name must end in .prm or .json", name);
 
   for (const std::string& setting : settings)
     {
       const GivenEntry given = setting_of(setting);
-      const auto same = std::find_if(entries.begin(), entries.end(), [&](const GivenEntry& one) {
-        return one.section == given.section && one.entry == given.entry;
-      });
+      const auto same = std::ranges::find_if(
+        entries, [&](const GivenEntry& one) { return one.section == given.section && one.entry == given.entry; });
       if (same == entries.end())
         entries.push_back(given);
       else if (same->place == given.place)
-        throw InputError(fmt::format("--set: {}/{}: is given twice", given.section, given.entry));
+        throw InputError("--set: {}/{}: is given twice", given.section, given.entry);
       else
         *same = given;
     }
@@ -111,15 +109,14 @@ InputError GivenEntries::error(const std::string_view section, const std::string
                                const std::string_view text) const
 {
   const GivenEntry* const given = find(section, entry);
-  return InputError(fmt::format("{}: {}/{} = {}: {}", given ? given->place : name, section, entry,
-                                excerpt(value(section, entry)), text));
+  return InputError("{}: {}/{} = {}: {}", given ? given->place : name, section, entry, excerpt(value(section, entry)),
+                    text);
 }
 
 const GivenEntry* GivenEntries::find(const std::string_view section, const std::string_view entry) const
 {
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const GivenEntry& candidate) {
-    return candidate.section == section && candidate.entry == entry;
-  });
+  const auto found = std::ranges::find_if(
+    entries, [&](const GivenEntry& candidate) { return candidate.section == section && candidate.entry == entry; });
   return found == entries.end() ? nullptr : &*found;
 }
 } // namespace feldspar

@@ -3,6 +3,7 @@
 #include "app/input/given_entries.h"
 #include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
@@ -122,9 +123,8 @@ void check_joint_law(const Input& input, const GivenEntries& values)
   for (const Variant& variant : all)
     laws.insert(variant.input.specimen.joint_law);
   const auto has_use = [&](const std::string_view section, const std::string_view entry) {
-    return std::any_of(all.begin(), all.end(), [&](const Variant& variant) {
-      return has_use_for(variant.input, *find_parameter(section, entry));
-    });
+    return std::ranges::any_of(
+      all, [&](const Variant& variant) { return has_use_for(variant.input, *find_parameter(section, entry)); });
   };
   for (const GivenEntry& given : values.all())
     if (!has_use(given.section, given.entry))
@@ -173,8 +173,7 @@ void check_mineral_grains(const Input& input, const GivenEntries& values)
 {
   const auto is_said = [&](const std::string& entry) {
     const auto& varied = input.variants.entries;
-    return values.has("Smooth joint", entry) ||
-           std::find(varied.begin(), varied.end(), "Smooth joint/" + entry) != varied.end();
+    return values.has("Smooth joint", entry) || contains(varied, "Smooth joint/" + entry);
   };
   const auto entry = grain_based_entry(input);
   if (!entry)
@@ -278,17 +277,14 @@ void complete_rocks(Input& input, const GivenEntries& values)
 {
   if (input.sample.rocks_file.empty())
     return;
-  try
-    {
+  rephrased(
+    [&] {
       input.rocks.table = input.sample.rocks_file;
       read_variant_table(input.rocks, "group");
       rocks_of_sample(input);
       input.sample.groups = input.rocks.labels;
-    }
-  catch (const InputError& error)
-    {
-      throw values.error("Sample", "Rocks", error.what());
-    }
+    },
+    [&](const std::string& what) { return values.error("Sample", "Rocks", what); });
 }
 
 void check_specimen(const Input& input, const GivenEntries& values)
@@ -344,9 +340,8 @@ void check_flaws(const Input& input, const GivenEntries& values)
     if (input.flaws.traces.empty() && values.has("Flaws", entry))
       throw values.error("Flaws", entry, "is of a joint map; give Traces file too");
   for (const auto& smooth : input.flaws.map.smooth_layers)
-    if (const std::string& layer = smooth.first;
-        std::none_of(input.flaws.traces.begin(), input.flaws.traces.end(),
-                     [&](const Shape& trace) { return std::get<ClosedFlaw>(trace).map_layer == layer; }))
+    if (const std::string& layer = smooth.first; std::ranges::none_of(
+          input.flaws.traces, [&](const Shape& trace) { return std::get<ClosedFlaw>(trace).map_layer == layer; }))
       throw values.error("Flaws", "Smooth layers",
                          fmt::format("no trace of the map is on a layer {}", in_quotes(layer)));
   if (!input.specimen.specimen_file.empty())
@@ -379,8 +374,7 @@ std::vector<std::string> settled_by_file(const Input& input, const GivenEntries&
            given.section == section_of(input.specimen.joint_law);
   };
   for (const GivenEntry& given : values.all())
-    if (const std::string name = given.section + "/" + given.entry;
-        is_of_body(given) && std::find(read.begin(), read.end(), name) == read.end())
+    if (const std::string name = given.section + "/" + given.entry; is_of_body(given) && !contains(read, name))
       entries.push_back(name);
   return entries;
 }
@@ -388,8 +382,7 @@ std::vector<std::string> settled_by_file(const Input& input, const GivenEntries&
 /// Reads the loading table, where a test follows it.
 void complete_loading(Input& input, const GivenEntries& values)
 {
-  const auto follower = std::find_if(input.test_list.begin(), input.test_list.end(),
-                                     [](const TestKind& kind) { return kind.follows_stages; });
+  const auto follower = std::ranges::find_if(input.test_list, &TestKind::follows_stages);
   if (follower == input.test_list.end())
     return;
   const auto refuse = [&](const char* entry, const std::string& why) {
@@ -441,14 +434,8 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
   Input input;
   input.folder = folder;
   for (const GivenEntry& given : values.all())
-    try
-      {
-        find_parameter(given.section, given.entry)->read(input, given.value);
-      }
-    catch (const InputError& error)
-      {
-        throw values.error(given.section, given.entry, error.what());
-      }
+    rephrased([&] { find_parameter(given.section, given.entry)->read(input, given.value); },
+              [&](const std::string& what) { return values.error(given.section, given.entry, what); });
   settle_dimension(input, values);
   settle_installation(input, values);
   complete_loading(input, values);

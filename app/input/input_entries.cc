@@ -2,19 +2,20 @@
 
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
+#include "base/contains.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
+#include "base/text.h"
 #include "laboratory/own_entries.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <set>
-#include <system_error>
 
 namespace feldspar
 {
@@ -26,11 +27,9 @@ constexpr std::size_t most_confinements = 1000;
 
 std::uint64_t parse_count(const std::string_view text)
 {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw InputError(fmt::format("{} is not a non-negative integer below 2^64", in_quotes(text)));
-  return value;
+  if (const auto value = number_in<std::uint64_t>(text))
+    return *value;
+  throw InputError("{} is not a non-negative integer below 2^64", in_quotes(text));
 }
 
 std::vector<TestKind> read_tests(const std::string_view text)
@@ -39,17 +38,15 @@ std::vector<TestKind> read_tests(const std::string_view text)
   std::vector<TestKind> tests;
   for (const std::string_view piece : split_at_commas(text))
     {
-      const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind& k) { return k.name == piece; });
+      const auto kind = std::ranges::find(known, piece, &TestKind::name);
       if (kind == known.end())
         {
-          std::vector<std::string_view> known_names;
-          for (const TestKind& one : known)
-            known_names.push_back(one.name);
-          throw InputError(fmt::format("{} is not a test; list one or more of {}{}", in_quotes(piece), names(known),
-                                       nearest_name(piece, known_names)));
+          const auto known_names = mapped<std::string_view>(known, &TestKind::name);
+          throw InputError("{} is not a test; list one or more of {}{}", in_quotes(piece), names(known),
+                           nearest_name(piece, known_names));
         }
-      if (std::find(tests.begin(), tests.end(), *kind) != tests.end())
-        throw InputError(fmt::format("{} is listed twice", piece));
+      if (contains(tests, *kind))
+        throw InputError("{} is listed twice", piece);
       tests.push_back(*kind);
     }
   return tests;
@@ -59,39 +56,34 @@ std::vector<double> read_confinements(const std::string_view text)
 {
   const std::vector<double> pressures = parse_quantities(text, stress);
   if (pressures.size() > most_confinements)
-    throw InputError(fmt::format("must be at most {} pressures", most_confinements));
+    throw InputError("must be at most {} pressures", most_confinements);
   for (auto p = pressures.begin(); p != pressures.end(); ++p)
     {
       if (*p <= 0.0)
-        throw InputError(
-          fmt::format("must be > 0 MPa each; without confinement it is {}", uniaxial_compression.kind.name));
+        throw InputError("must be > 0 MPa each; without confinement it is {}", uniaxial_compression.kind.name);
       if (std::find(pressures.begin(), p, *p) != p)
-        throw InputError(fmt::format("{} is given twice", format_quantity(*p, "MPa", stress)));
+        throw InputError("{} is given twice", format_quantity(*p, "MPa", stress));
     }
   return pressures;
 }
 
 std::string write_confinements(const std::vector<double>& pressures)
 {
-  std::string text;
-  for (const double p : pressures)
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", format_number(p / 1e6));
-  return text + " MPa";
+  const auto in_mpa = mapped<std::string>(pressures, [](const double p) { return format_number(p / 1e6); });
+  return fmt::format("{} MPa", fmt::join(in_mpa, ", "));
 }
 
 std::vector<double> read_gravity(const std::string_view text)
 {
   const std::vector<double> components = text == none ? std::vector<double>() : parse_quantities(text, acceleration);
   if (components.size() == 1 || components.size() > 3)
-    throw InputError(fmt::format("must be none, or have a component for each axis, e.g. \"{}\"", acceleration.example));
+    throw InputError("must be none, or have a component for each axis, e.g. \"{}\"", acceleration.example);
   return components;
 }
 
 std::string write_gravity(const std::vector<double>& components)
 {
-  std::string text;
-  for (const double one : components)
-    text += (text.empty() ? "" : ", ") + format_number(one);
+  const std::string text = fmt::format("{}", fmt::join(mapped<std::string>(components, format_number), ", "));
   return text.empty() ? std::string(none) : text + " m/s^2";
 }
 
@@ -138,21 +130,21 @@ std::vector<std::uint64_t> read_seeds(const std::string_view text)
         }
       const std::size_t dots = piece.find("..");
       if (const std::size_t dash = piece.find('-'); dash != std::string_view::npos && dash > 0)
-        throw InputError(fmt::format("{}: a range is written with two dots, {}..{}", in_quotes(piece),
-                                     excerpt(trim(piece.substr(0, dash))), excerpt(trim(piece.substr(dash + 1)))));
+        throw InputError("{}: a range is written with two dots, {}..{}", in_quotes(piece),
+                         excerpt(trim(piece.substr(0, dash))), excerpt(trim(piece.substr(dash + 1))));
       const std::uint64_t first = parse_count(piece.substr(0, dots));
       const std::uint64_t last = dots == std::string_view::npos ? first : parse_count(piece.substr(dots + 2));
       if (last < first)
-        throw InputError(fmt::format("the range {} runs backwards", excerpt(piece)));
+        throw InputError("the range {} runs backwards", excerpt(piece));
       if (last - first >= most_seeds - seeds.size())
-        throw InputError(fmt::format("must be at most {} seeds", most_seeds));
+        throw InputError("must be at most {} seeds", most_seeds);
       for (std::uint64_t i = 0; i <= last - first; ++i)
         seeds.push_back(first + i);
     }
   std::set<std::uint64_t> seen;
   for (const std::uint64_t seed : seeds)
     if (!seen.insert(seed).second)
-      throw InputError(fmt::format("seed {} is given twice", seed));
+      throw InputError("seed {} is given twice", seed);
   return seeds;
 }
 
@@ -163,7 +155,7 @@ std::vector<std::optional<double>> read_direction(const std::string_view text)
     return direction;
   for (const std::string_view piece : split_at_commas(text))
     direction.push_back(piece == free_component ? std::nullopt : std::optional(parse_number(piece)));
-  if (std::none_of(direction.begin(), direction.end(), [](const auto& entry) { return entry.value_or(0.0) != 0.0; }))
+  if (std::ranges::none_of(direction, [](const auto& entry) { return entry.value_or(0.0) != 0.0; }))
     throw InputError("at least one component must be a number other than 0");
   return direction;
 }
@@ -180,45 +172,34 @@ std::string write_direction(const std::vector<std::optional<double>>& direction)
 
 std::vector<Entry<Input>> test_list_entries()
 {
-  return {
-    {"List",
-     Entry<Input>::Text{"", names(test_kinds()),
-                        [](Input& input, const std::string_view text) { input.test_list = read_tests(text); },
-                        [](const Input& input) { return names(input.test_list); }},
-     "the tests to be made, separated by commas",
-     {.basic = true}},
-    {"Confinements",
-     Entry<Input>::Text{"MPa", "> 0 MPa each",
-                        [](Input& input, const std::string_view text) { input.confinements = read_confinements(text); },
-                        [](const Input& input) { return write_confinements(input.confinements); }},
-     "pressures of the triaxial tests, normal stresses of direct shear, separated by commas, and ranges such as 10..60 MPa "
-     "step 10",
-     {.basic = true}}};
+  return {entry::text("List", &Input::test_list, "", names(test_kinds()), read_tests, names,
+                      "the tests to be made, separated by commas", {.basic = true}),
+          entry::text("Confinements", &Input::confinements, "MPa", "> 0 MPa each", read_confinements,
+                      write_confinements,
+                      "pressures of the triaxial tests, normal stresses of direct shear, separated by commas, and "
+                      "ranges such as 10..60 MPa step 10",
+                      {.basic = true})};
 }
 
 Entry<Input> checkpoint_entry()
 {
-  return {"Steps between checkpoints",
-          Entry<Input>::Text{"", "integer > 0",
-                             [](Input& input, const std::string_view text) {
-                               input.steps_between_checkpoints = parse_count(text);
-                               if (input.steps_between_checkpoints == 0)
-                                 throw InputError("must be an integer > 0");
-                             },
-                             [](const Input& input) { return std::to_string(input.steps_between_checkpoints); }},
-          "after which `lab --resume` can take up a test",
-          {}};
+  const auto read = [](const std::string_view text) {
+    const std::uint64_t steps = parse_count(text);
+    if (steps == 0)
+      throw InputError("must be an integer > 0");
+    return steps;
+  };
+  return entry::text(
+    "Steps between checkpoints", &Input::steps_between_checkpoints, "", "integer > 0", read,
+    [](const std::uint64_t steps) { return std::to_string(steps); }, "after which `lab --resume` can take up a test");
 }
 
 std::vector<Entry<TestParameters>> tests_text_entries()
 {
-  using P = TestParameters;
-  return {{"Gravity",
-           Entry<P>::Text{"m/s^2", "none, or a number for each axis",
-                          [](P& tests, const std::string_view text) { tests.gravity = read_gravity(text); },
-                          [](const P& tests) { return write_gravity(tests.gravity); }},
-           "acceleration of all grains, from the first step on (of tilt: raised while the body is seated)",
-           tests_flags::of_grains, id_of_member(&P::gravity)}};
+  return {entry::text("Gravity", &TestParameters::gravity, "m/s^2", "none, or a number for each axis", read_gravity,
+                      write_gravity,
+                      "acceleration of all grains, from the first step on (of tilt: raised while the body is seated)",
+                      tests_flags::of_grains)};
 }
 
 std::string varied_entry(const std::string_view text)
@@ -234,10 +215,10 @@ std::string varied_entry(const std::string_view text)
         if (parameter.entry == text)
           with_entry.push_back(parameter.name());
       }
-  if (std::find(names.begin(), names.end(), text) != names.end())
+  if (contains(names, text))
     return std::string(text);
   if (!with_entry.empty())
-    throw InputError(fmt::format("lacks its section; write Section/Entry: {}", fmt::join(with_entry, " or ")));
+    throw InputError("lacks its section; write Section/Entry: {}", fmt::join(with_entry, " or "));
   const std::string nearest = suggestion(text, {names.begin(), names.end()});
   throw InputError("is not an entry that can vary; write Section/Entry" +
                    (nearest.starts_with("; there are") ? ", e.g. Flat joint/Segments" : nearest));
@@ -246,23 +227,17 @@ std::string varied_entry(const std::string_view text)
 std::vector<Entry<VariantParameters>> variant_entries()
 {
   using P = VariantParameters;
+  const auto write_entries = [](const std::vector<std::string>& entries) {
+    return entries.empty() ? std::string(none) : fmt::format("{}", fmt::join(entries, "; "));
+  };
   return {
-    {"Entry",
-     Entry<P>::Text{"", "none, or Section/Entry, several separated by semicolons",
-                    [](P& wanted, const std::string_view text) { wanted.entries = read_variant_entries(text); },
-                    [](const P& wanted) {
-                      return wanted.entries.empty() ? std::string(none)
-                                                    : fmt::format("{}", fmt::join(wanted.entries, "; "));
-                    }},
-     "entries that take several values in one run",
-     {.basic = true}},
-    {"Values",
-     Entry<P>::Text{"", "none, or values of each entry",
-                    [](P& wanted, const std::string_view text) { wanted.values = read_variant_values(text); },
-                    [](const P& wanted) { return write_variant_values(wanted.values); }},
-     "values separated by semicolons, and ranges such as 10..60 MPa step 10; the lists of several entries by two upright "
-     "bars, ||",
-     {.basic = true}},
+    entry::text("Entry", &P::entries, "", "none, or Section/Entry, several separated by semicolons",
+                read_variant_entries, write_entries, "entries that take several values in one run", {.basic = true}),
+    entry::text(
+      "Values", &P::values, "", "none, or values of each entry", read_variant_values, write_variant_values,
+      "values separated by semicolons, and ranges such as 10..60 MPa step 10; the lists of several entries by "
+      "two upright bars, ||",
+      {.basic = true}),
     entry::choice("Combine", &P::in_step, {{"grid", false}, {"in step", true}},
                   "grid: each value of an entry with each of the others; in step: the first values of all entries, "
                   "then the second, ..."),
@@ -273,12 +248,10 @@ std::vector<Entry<VariantParameters>> variant_entries()
 
 Entry<Input> seeds_entry()
 {
-  return {"Seeds",
-          Entry<Input>::Text{"", "non-negative integers and ranges, such as 1, 5..7, 10..20 step 5",
-                             [](Input& input, const std::string_view text) { input.seeds = read_seeds(text); },
-                             [](const Input& input) { return fmt::format("{}", fmt::join(input.seeds, ", ")); }},
-          "one specimen for each seed",
-          {.basic = true}};
+  return entry::text("Seeds", &Input::seeds, "", "non-negative integers and ranges, such as 1, 5..7, 10..20 step 5",
+                     read_seeds,
+                     [](const std::vector<std::uint64_t>& seeds) { return fmt::format("{}", fmt::join(seeds, ", ")); },
+                     "one specimen for each seed", {.basic = true});
 }
 
 std::vector<Entry<ContactParameters>> contact_entries()
@@ -308,11 +281,10 @@ std::vector<Entry<StrainPathParameters>> strain_path_entries()
                 "dimensions xx,yy,zz,yz,xz,xy): strain_xx (tensor shear) or stress_xx_Pa, tension positive; "
                 "straight ways between; instead of Direction",
                 {.basic = true}),
-    {"Direction",
-     Entry<P>::Text{"", "none, or a number or free for each of xx, yy, xy (or xx, yy, zz, yz, xz, xy)",
-                    [](P& path, const std::string_view text) { path.direction = read_direction(text); },
-                    [](const P& path) { return write_direction(path.direction); }},
-     "of the strain (tensor shear, tension positive); a free component stays at the stress of the confinement", basic},
+    entry::text(
+      "Direction", &P::direction, "", "none, or a number or free for each of xx, yy, xy (or xx, yy, zz, yz, xz, xy)",
+      read_direction, write_direction,
+      "of the strain (tensor shear, tension positive); a free component stays at the stress of the confinement", basic),
     entry::number("Size", &P::size, {'(', 0.0, largest_strain, ']'}, "of the strain at the end, over Direction", basic),
     entry::quantity("Confining pressure", &P::confining_pressure, Measure::stress, "MPa", {'[', 0.0, 1e5, ']'},
                     "compression positive, on all sides before the strain begins; strains of Direction count "
@@ -334,22 +306,17 @@ std::vector<Entry<StrainPathParameters>> strain_path_entries()
 std::vector<Entry<ReportLabels>> label_entries()
 {
   using L = ReportLabels;
-  const auto label = [](const std::string_view name, std::string L::*const member, const std::string_view meaning) {
-    return Entry<L>{
-      name,
-      Entry<L>::Text{
-        "", "none, or a text",
-        [=](L& labels, const std::string_view text) {
-          constexpr std::size_t most = 200; // bytes: a line or two of a heading
-          if (text.size() > most)
-            throw InputError(fmt::format("is too long: {} bytes, at most {} are allowed", text.size(), most));
-          if (printable(text) != text)
-            throw InputError(fmt::format("{} is no line of UTF-8 text without control characters", in_quotes(text)));
-          labels.*member = text == none ? "" : text;
-        },
-        [=](const L& labels) { return labels.*member == "" ? std::string(none) : labels.*member; }},
-      meaning,
-      {}};
+  const auto read = [](const std::string_view text) {
+    constexpr std::size_t most = 200; // bytes: a line or two of a heading
+    if (text.size() > most)
+      throw InputError("is too long: {} bytes, at most {} are allowed", text.size(), most);
+    if (printable(text) != text)
+      throw InputError("{} is no line of UTF-8 text without control characters", in_quotes(text));
+    return std::string(text == none ? "" : text);
+  };
+  const auto write = [](const std::string& text) { return text.empty() ? std::string(none) : text; };
+  const auto label = [&](const std::string_view name, std::string L::*const member, const std::string_view meaning) {
+    return entry::text(name, member, "", "none, or a text", read, write, meaning);
   };
   return {
     label("Title", &L::title, "heading of the report; names the run in tables and keys, instead of its folder"),

@@ -41,20 +41,20 @@ std::vector<GivenEntry> scan_json(const std::string& file, const std::string& te
 {
   const Json json = parse_json(file, text);
   if (!json.is_object())
-    throw InputError(fmt::format(R"({}: the file must be one object, {{"Section": {{"Entry": "value"}}}})", file));
+    throw InputError(R"({}: the file must be one object, {{"Section": {{"Entry": "value"}}}})", file);
   std::vector<GivenEntry> given;
   for (const auto& [section, entries] : json.items())
     {
       check_section(section, file);
       if (!entries.is_object())
-        throw InputError(fmt::format(R"({}: {}: must be an object of entries, {{"Entry": "value"}})", file, section));
+        throw InputError(R"({}: {}: must be an object of entries, {{"Entry": "value"}})", file, section);
       for (const auto& [entry, value] : entries.items())
         {
           check_name({section, entry, "", file});
           const std::optional<std::string> value_text = prm_text(value);
           if (!value_text)
-            throw InputError(fmt::format("{}: {}/{}: found {}; must be a string, a number, a list of them or null",
-                                         file, section, entry, value.type_name()));
+            throw InputError("{}: {}/{}: found {}; must be a string, a number, a list of them or null", file, section,
+                             entry, value.type_name());
           given.push_back({section, entry, *value_text, file});
         }
     }

@@ -4,6 +4,7 @@
 #include "app/input/flaw_entries.h"
 #include "app/input/input_entries.h"
 #include "app/input/joint_sections.h"
+#include "base/contains.h"
 #include "base/parameter_id.h"
 #include "calibration/entries.h"
 #include "coupling/rve/entries.h"
@@ -89,17 +90,8 @@ std::vector<std::pair<ParameterId, InputPlace>> further_places()
 
 std::string command_of(const Work work)
 {
-  switch (work)
-    {
-    case Work::specimen:
-      return "`feldspar specimen`";
-    case Work::strain_path:
-      return "`feldspar rve`";
-    case Work::rve_out_of_sample:
-      return "`feldspar multiscale --extract`";
-    default:
-      return "`feldspar multiscale`";
-    }
+  constexpr const char* commands[] = {"specimen", "rve", "multiscale", "multiscale --extract"}; // by their enumerators
+  return fmt::format("`feldspar {}`", commands[std::size_t(work)]);
 }
 
 // Whoever can read an input is told of its parameters by section and entry.
@@ -180,14 +172,12 @@ const Demand* unmet_demand(const Input& input, const Parameter& parameter)
 {
   const auto& demands = parameter.flags.demands;
   const std::string value = demands.empty() ? "" : parameter.write(input);
-  const auto unmet = std::find_if(demands.begin(), demands.end(), [&](const Demand& demand) {
+  const auto unmet = std::ranges::find_if(demands, [&](const Demand& demand) {
     if (demand.of_value.empty() ? value == parameter.default_text() : value != demand.of_value)
       return false;
     const Parameter& other = *find_parameter(demand.other);
     const std::string found = other.write(input);
-    return demand.allowed.empty()
-             ? found != other.default_text()
-             : std::find(demand.allowed.begin(), demand.allowed.end(), found) == demand.allowed.end();
+    return demand.allowed.empty() ? found != other.default_text() : !contains(demand.allowed, found);
   });
   return unmet == demands.end() ? nullptr : &*unmet;
 }
@@ -196,7 +186,7 @@ bool has_smooth_joints(const Input& input)
 {
   const auto shapes = input.flaws.all();
   return input.mineral_grains.mean_size || input.minerals.form_of_rock() == MineralGrainForm::smooth_boundaries ||
-         std::any_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return smooth_sides(shape) != nullptr; });
+         std::ranges::any_of(shapes, [](const Shape& shape) { return smooth_sides(shape) != nullptr; });
 }
 
 bool has_use_for(const Input& input, const Parameter& parameter)
@@ -212,7 +202,7 @@ bool has_use_for(const Input& input, const Parameter& parameter)
       (!input.minerals.has_picture() || (is_of_slices && input.specimen.dimension != 3)))
     return false;
   const auto laws = JointLaws::names();
-  return std::none_of(laws.begin(), laws.end(), [&](const std::string_view law) {
+  return std::ranges::none_of(laws, [&](const std::string_view law) {
     return parameter.section == section_of(law) && law != input.specimen.joint_law;
   });
 }
@@ -220,10 +210,9 @@ bool has_use_for(const Input& input, const Parameter& parameter)
 void check_body(const Input& input, const Body body)
 {
   for (const Parameter& parameter : parameter_table())
-    if (const auto& bodies = parameter.flags.bodies;
-        !bodies.empty() && std::find(bodies.begin(), bodies.end(), body) == bodies.end())
+    if (const auto& bodies = parameter.flags.bodies; !bodies.empty() && !contains(bodies, body))
       if (const std::string value = parameter.write(input); value != parameter.default_text())
-        throw InputError(fmt::format("{} = {}: {}{}", parameter.name(), value, parameter.flags.needs,
-                                     body == Body::sample ? "; a sample of finite elements has no use for it" : ""));
+        throw InputError("{} = {}: {}{}", parameter.name(), value, parameter.flags.needs,
+                         body == Body::sample ? "; a sample of finite elements has no use for it" : "");
 }
 } // namespace feldspar

@@ -27,12 +27,11 @@ GivenEntry entry_of(const std::string& section, const std::string& setting, cons
 {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos)
-    throw InputError(
-      fmt::format("{}: {}: has no value; write \"set NAME = VALUE\"", place, in_quotes("set " + setting)));
+    throw InputError("{}: {}: has no value; write \"set NAME = VALUE\"", place, in_quotes("set " + setting));
   const std::string_view all = setting;
   GivenEntry given{section, std::string(trim(all.substr(0, equals))), std::string(trim(all.substr(equals + 1))), place};
   if (section.empty())
-    throw InputError(fmt::format("{}: {}: stands outside of any subsection", place, excerpt(given.entry)));
+    throw InputError("{}: {}: stands outside of any subsection", place, excerpt(given.entry));
   check_name(given);
   return given;
 }
@@ -46,11 +45,11 @@ std::vector<GivenEntry> scan_prm(const std::string& file, const std::string& tex
   std::size_t section_line = 0;
   const auto scan_line = [&](const std::size_t number, std::string line) {
     line.erase(std::min(line.find('#'), line.size()));
-    std::replace(line.begin(), line.end(), '\t', ' ');
+    std::ranges::replace(line, '\t', ' ');
     const std::string_view words = trim(line);
     const std::string place = fmt::format("{}:{}", file, number);
     const auto refuse = [&](const std::string& found, const std::string& why) {
-      throw InputError(fmt::format("{}: {}: {}", place, found, why));
+      throw InputError("{}: {}: {}", place, found, why);
     };
     if (words.empty())
       return;
@@ -104,8 +103,8 @@ std::vector<GivenEntry> scan_prm(const std::string& file, const std::string& tex
     }
   scan_line(first_number, joined);
   if (!section.empty())
-    throw InputError(fmt::format("{}:{}: subsection {}: is not closed; write \"end\" after its last entry", file,
-                                 section_line, section));
+    throw InputError("{}:{}: subsection {}: is not closed; write \"end\" after its last entry", file, section_line,
+                     section);
   return entries;
 }
 } // namespace feldspar

@@ -3,11 +3,9 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/csv.h"
-#include "base/text.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace feldspar
@@ -72,17 +70,16 @@ std::array<PathColumn, n_voigt<dim>> path_columns(CsvReader& table, const std::s
       const auto strain = table.find_in_si(strain_column);
       const auto stress = table.find_in_si(stress_column);
       if (strain && stress)
-        throw InputError(fmt::format("{}:{}: {} and {} are both given; a component has its strain or its stress given",
-                                     file, table.line_of_header(), strain_column, stress_column));
+        throw InputError("{}:{}: {} and {} are both given; a component has its strain or its stress given", file,
+                         table.line_of_header(), strain_column, stress_column);
       good = good && (strain || stress);
       columns[k] = {strain ? *strain : stress.value_or(0), stress.has_value()};
     }
   if (!good)
-    throw InputError(fmt::format("{}:{}: the header is {}; it must be \"{}\", or stress_.._Pa in place of strain_.. "
-                                 "for some of {}, or units as in \"stress_{} [MPa]\"",
-                                 file, table.line_of_header(),
-                                 in_quotes(fmt::format("{}", fmt::join(table.header(), ","))), strains, names,
-                                 voigt_name<dim>(0)));
+    throw InputError("{}:{}: the header is {}; it must be \"{}\", or stress_.._Pa in place of strain_.. "
+                     "for some of {}, or units as in \"stress_{} [MPa]\"",
+                     file, table.line_of_header(), in_quotes(fmt::format("{}", fmt::join(table.header(), ","))),
+                     strains, names, voigt_name<dim>(0));
   return columns;
 }
 
@@ -101,15 +98,15 @@ std::vector<PathLeg<dim>> legs_from_file(const std::string& file)
         {
           const double value = table.number(columns[k].place);
           if (!control.stress_given[k] && std::abs(value) > largest_strain)
-            throw InputError(fmt::format("{}: point {}: strain_{} = {}: must lie in [-{}, {}]", file, legs.size() + 1,
-                                         voigt_name<dim>(k), value, largest_strain, largest_strain));
+            throw InputError("{}: point {}: strain_{} = {}: must lie in [-{}, {}]", file, legs.size() + 1,
+                             voigt_name<dim>(k), value, largest_strain, largest_strain);
           (control.stress_given[k] ? control.stress[k] : control.strain[k]) =
             control.stress_given[k] ? value : engineering<dim>(k) * value;
         }
       legs.push_back({control, false});
     }
   if (legs.empty())
-    throw InputError(fmt::format("{}: there is no row below the header", file));
+    throw InputError("{}: there is no row below the header", file);
   return legs;
 }
 } // namespace
@@ -126,13 +123,13 @@ void check(const StrainPathParameters& path)
     throw InputError(
       "Strain path/Cell angle: needs Solver = event by event; explicit dynamics have a cell along the axes");
   if (constexpr double most_increments = 1e7; path.size / path.largest_step > most_increments)
-    throw InputError(fmt::format("Strain path/Largest step = {:g}: Size = {:g} would be more than {:g} increments",
-                                 path.largest_step, path.size, most_increments));
+    throw InputError("Strain path/Largest step = {:g}: Size = {:g} would be more than {:g} increments",
+                     path.largest_step, path.size, most_increments);
   for (const auto& component : path.direction)
     if (component && std::abs(path.size * *component) > largest_strain)
-      throw InputError(fmt::format("Strain path/Size: times {:g} of Direction is a strain of {:g}; a cell "
-                                   "takes strains of at most {:g}",
-                                   *component, path.size * *component, largest_strain));
+      throw InputError("Strain path/Size: times {:g} of Direction is a strain of {:g}; a cell "
+                       "takes strains of at most {:g}",
+                       *component, path.size * *component, largest_strain);
 }
 
 template <int dim>

@@ -66,11 +66,11 @@ std::string cut_between_words(const std::string& name)
 std::string name_of_entry(const std::string& entry, const std::vector<VariantSetting>& settings)
 {
   const auto short_name = [](const std::string& full) { return full.substr(full.find('/') + 1); };
-  const bool is_alone = std::count_if(settings.begin(), settings.end(), [&](const VariantSetting& other) {
+  const bool is_alone = std::ranges::count_if(settings, [&](const VariantSetting& other) {
                           return short_name(other.entry) == short_name(entry);
                         }) == 1;
   std::string name = is_alone ? short_name(entry) : entry;
-  std::replace(name.begin(), name.end(), '/', ' ');
+  std::ranges::replace(name, '/', ' ');
   return in_small_letters(in_words(name));
 }
 } // namespace

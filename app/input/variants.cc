@@ -3,7 +3,9 @@
 #include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
 #include "app/input/variant_names.h"
+#include "base/contains.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/table/csv.h"
 #include "base/text.h"
@@ -32,14 +34,8 @@ const Parameter& parameter_named(const std::string& name) { return *find_paramet
 VariantSetting set(Input& input, const std::string& entry, const std::string& value)
 {
   const Parameter& parameter = parameter_named(entry);
-  try
-    {
-      parameter.read(input, value);
-    }
-  catch (const InputError& error)
-    {
-      throw InputError(fmt::format("{} = {}: {}", entry, excerpt(value), error.what()));
-    }
+  rephrased([&] { parameter.read(input, value); },
+            [&](const std::string& what) { return InputError("{} = {}: {}", entry, excerpt(value), what); });
   for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
     if (parameter.section != section_of(law))
       return;
@@ -75,30 +71,27 @@ void check_fit(const VariantParameters& wanted)
     {
       if (std::find(wanted.entries.begin(), wanted.entries.begin() + std::ptrdiff_t(k), wanted.entries[k]) !=
           wanted.entries.begin() + std::ptrdiff_t(k))
-        throw InputError(fmt::format("{} is named twice", wanted.entries[k]));
+        throw InputError("{} is named twice", wanted.entries[k]);
       if (wanted.in_step && wanted.values[k].size() != wanted.values.front().size())
-        throw InputError(fmt::format("{} has {} values and {} has {}; in step they need as many",
-                                     wanted.entries.front(), wanted.values.front().size(), wanted.entries[k],
-                                     wanted.values[k].size()));
+        throw InputError("{} has {} values and {} has {}; in step they need as many", wanted.entries.front(),
+                         wanted.values.front().size(), wanted.entries[k], wanted.values[k].size());
     }
   if (n_variants(wanted) > most_variants)
-    throw InputError(fmt::format("must be at most {} variants", most_variants));
+    throw InputError("must be at most {} variants", most_variants);
 }
 
 /// Returns whether tests.csv has such a column beside the entries that vary.
 bool is_of_tests_table(const std::string_view column)
 {
   return column == "name" || column == "kind" || column == "seed" ||
-         std::ranges::any_of(test_quantities, [&](const TestQuantity& quantity) { return quantity.name == column; });
+         contains(test_quantities, column, &TestQuantity::name);
 }
 
 void name_for_files(std::vector<Variant>& all, const bool by_number)
 {
   if (all.size() < 2)
     return;
-  std::vector<std::vector<VariantSetting>> settings;
-  for (const Variant& variant : all)
-    settings.push_back(variant.settings);
+  const auto settings = mapped<std::vector<VariantSetting>>(all, &Variant::settings);
   const auto names = names_in_files(settings);
   for (std::size_t v = 0; v < all.size(); ++v)
     all[v].name_in_files = by_number ? fmt::format("variant_{}", v + 1) : names[v];
@@ -128,22 +121,17 @@ void read_variant_table(VariantParameters& wanted, const std::string_view column
           has_results = true;
           continue;
         }
-      try
-        {
-          wanted.entries.push_back(varied_entry(name));
-        }
-      catch (const InputError& error)
-        {
-          throw InputError(
-            fmt::format("{}:{}: {} {}", wanted.table, table.line_of_header(), in_quotes(name), error.what()));
-        }
+      wanted.entries.push_back(rephrased([&, &name = name] { return varied_entry(name); },
+                                         [&, &name = name](const std::string& what) {
+                                           return InputError("{}:{}: {} {}", wanted.table, table.line_of_header(),
+                                                             in_quotes(name), what);
+                                         }));
       columns.emplace_back(k, unit == "-" ? "" : unit);
     }
   if (!column_of_labels.empty() && !labels)
-    throw InputError(
-      fmt::format("{}:{}: there is no column {}", wanted.table, table.line_of_header(), column_of_labels));
+    throw InputError("{}:{}: there is no column {}", wanted.table, table.line_of_header(), column_of_labels);
   if (columns.empty())
-    throw InputError(fmt::format("{}:{}: there is no column of an entry", wanted.table, table.line_of_header()));
+    throw InputError("{}:{}: there is no column of an entry", wanted.table, table.line_of_header());
   wanted.values.resize(wanted.entries.size());
   wanted.in_step = true;
   std::set<std::vector<std::string>> rows; // a table of tests has a row for each test of a variant
@@ -164,7 +152,7 @@ void read_variant_table(VariantParameters& wanted, const std::string_view column
         wanted.values[k].push_back(std::move(row[k]));
     }
   if (wanted.values.front().empty())
-    throw InputError(fmt::format("{}: there is no row below the header", wanted.table));
+    throw InputError("{}: there is no row below the header", wanted.table);
 }
 
 std::vector<Variant> variants(const Input& input)
@@ -200,8 +188,8 @@ std::vector<Variant> rocks_of_sample(const Input& input)
     return {{"", input}};
   constexpr std::array common{"Specimen/Dimension", "Specimen/Shape", "Specimen/Width", "Specimen/Height"};
   for (const std::string& entry : input.rocks.entries)
-    if (!parameter_named(entry).flags.of_specimen || std::find(common.begin(), common.end(), entry) != common.end())
-      throw InputError(fmt::format("{}: {} is one for all rocks of a sample", input.rocks.table, entry));
+    if (!parameter_named(entry).flags.of_specimen || contains(common, entry))
+      throw InputError("{}: {} is one for all rocks of a sample", input.rocks.table, entry);
   Input of_rocks = input;
   of_rocks.variants = input.rocks;
   std::vector<Variant> rocks = variants(of_rocks);
@@ -211,8 +199,8 @@ std::vector<Variant> rocks_of_sample(const Input& input)
       rocks[k].name_in_files = fmt::format("rock_{}", k + 2);
       if (const auto before = input.rocks.labels.begin() + std::ptrdiff_t(k);
           rocks[k].label.empty() || std::find(input.rocks.labels.begin(), before, rocks[k].label) != before)
-        throw InputError(fmt::format("{}: each row needs a group of its own; row {} has {}", input.rocks.table, k + 1,
-                                     in_quotes(rocks[k].label)));
+        throw InputError("{}: each row needs a group of its own; row {} has {}", input.rocks.table, k + 1,
+                         in_quotes(rocks[k].label));
     }
   rocks.insert(rocks.begin(), {"", input});
   return rocks;

@@ -23,7 +23,7 @@ bool is_launched()
 {
   // Variables of Open MPI's mpirun, of PMI (srun, MPICH) and of PMIx (srun).
   constexpr std::array variables{"OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMIX_RANK"};
-  return std::any_of(variables.begin(), variables.end(), [](const char* name) { return std::getenv(name) != nullptr; });
+  return std::ranges::any_of(variables, [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 namespace

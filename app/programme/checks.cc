@@ -3,6 +3,7 @@
 #include "app/input/parameter_table.h"
 #include "app/input/strain_path.h"
 #include "app/programme/reference_body.h"
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/protocols/tilt.h"
@@ -20,12 +21,7 @@ namespace feldspar
 {
 namespace
 {
-[[noreturn]] void refuse(const std::string& what) { throw InputError(what); }
-
-bool lists(const Input& input, const TestKind& kind)
-{
-  return std::ranges::find(input.test_list, kind) != input.test_list.end();
-}
+bool lists(const Input& input, const TestKind& kind) { return contains(input.test_list, kind); }
 
 /// Refuses loads that do not fit the body, the tests or each other.
 void check_loads(const Input& input, const Body body)
@@ -33,31 +29,23 @@ void check_loads(const Input& input, const Body body)
   const TestParameters& tests = input.tests;
   const std::size_t dimension = body == Body::plane_box ? 2 : 3;
   if (!tests.gravity.empty() && tests.gravity.size() != dimension)
-    refuse(fmt::format("Tests/Gravity = {}: must have {} components, one for each axis of the body",
-                       find_parameter("Tests/Gravity")->write(input), dimension));
+    throw InputError("Tests/Gravity = {}: must have {} components, one for each axis of the body",
+                     find_parameter("Tests/Gravity")->write(input), dimension);
   const auto& own = tests.of<CompressionParameters>();
   if (lists(input, own_loading.kind) && (own.loading_rate || own.machine_stiffness))
-    refuse(fmt::format("Tests/{}: own_loading follows its table at the rates there; take it out, or own_loading off "
-                       "Tests/List",
-                       own.loading_rate ? "Compression loading rate" : "Machine stiffness"));
+    throw InputError("Tests/{}: own_loading follows its table at the rates there; take it out, or own_loading off "
+                     "Tests/List",
+                     own.loading_rate ? "Compression loading rate" : "Machine stiffness");
   if (own.machine_stiffness && own.loading_rate && own.loading_rate->of != LoadingRate::Of::travel)
-    refuse(
-      fmt::format("Tests/Compression loading rate = {}: a machine that raises its force has no stiffness; give the "
-                  "rate in mm/min, or set Machine stiffness = none",
-                  own.loading_rate->text));
+    throw InputError("Tests/Compression loading rate = {}: a machine that raises its force has no stiffness; give the "
+                     "rate in mm/min, or set Machine stiffness = none",
+                     own.loading_rate->text);
 }
 } // namespace
 
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check)
 {
-  try
-    {
-      check();
-    }
-  catch (const InputError& error)
-    {
-      throw InputError(fmt::format("{}: {}", input_file.string(), error.what()));
-    }
+  rephrased(check, [&](const std::string& what) { return InputError("{}: {}", input_file.string(), what); });
 }
 
 std::optional<Reference> reference_of(const Input& input)
@@ -69,25 +57,24 @@ std::optional<Reference> reference_of(const Input& input)
 void check_equilibria(const SpecimenParameters& specimen, const std::string_view remedy)
 {
   if (!JointLaws::has_equilibria(specimen.joint_law))
-    refuse(fmt::format("Specimen/Joint law = {}: its faces have no response yet from one equilibrium to the next; {}",
-                       specimen.joint_law, remedy));
+    throw InputError("Specimen/Joint law = {}: its faces have no response yet from one equilibrium to the next; {}",
+                     specimen.joint_law, remedy);
 }
 
 void check_boundary(const Input& input)
 {
   if (input.specimen.dimension == 2 && input.boundary.free_axis == 2)
-    refuse("Representative volume/Free axis = z: in two dimensions it is x or y");
+    throw InputError("Representative volume/Free axis = z: in two dimensions it is x or y");
 }
 
 void check_no_groups(const Input& input)
 {
   for (const auto& [section, entry] : {std::pair("Clumps", "Diameter"), std::pair("Mineral grains", "Mean size")})
     if (const std::string value = find_parameter(section, entry)->write(input); value != none)
-      refuse(
-        fmt::format("{}/{} = {}: a representative volume takes none; set {} = none", section, entry, value, entry));
+      throw InputError("{}/{} = {}: a representative volume takes none; set {} = none", section, entry, value, entry);
   if (input.minerals.form_of_rock() != MineralGrainForm::breakable)
-    refuse(fmt::format("Minerals/Grains = {}: a representative volume takes breakable ones; set Grains = breakable",
-                       find_parameter("Minerals/Grains")->write(input)));
+    throw InputError("Minerals/Grains = {}: a representative volume takes breakable ones; set Grains = breakable",
+                     find_parameter("Minerals/Grains")->write(input));
 }
 
 std::vector<std::string> entries_without_effect(const std::vector<Variant>& variants)
@@ -106,7 +93,7 @@ std::vector<std::string> entries_without_effect(const std::vector<Variant>& vari
           continue;
         const std::string sentence = fmt::format("{} has no effect: it is of {}, and Tests/List has {}",
                                                  parameter.name(), names(takers), names(variant.input.test_list));
-        if (std::ranges::find(sentences, sentence) == sentences.end())
+        if (!contains(sentences, sentence))
           sentences.push_back(sentence);
       }
   return sentences;
@@ -116,7 +103,7 @@ void check_on_body(const Input& input, const Body body)
 {
   for (const TestKind& kind : input.test_list)
     if (const std::string objection = objection_to_grains(kind, body); !objection.empty())
-      refuse(objection);
+      throw InputError(objection);
   check_body(input, body);
   check_loads(input, body);
 }
@@ -125,8 +112,9 @@ void check_specimen_and_tests(const Input& input)
 {
   const SpecimenParameters& specimen = input.specimen;
   if (specimen.shape == BodyShape::periodic)
-    refuse("Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set Shape = box, or use "
-           "feldspar rve");
+    throw InputError(
+      "Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set Shape = box, or use "
+      "feldspar rve");
   if (specimen.specimen_file.empty()) // else it brings its own shape
     {
       check_on_body(input, body_of(specimen.dimension, specimen.shape));
@@ -136,17 +124,18 @@ void check_specimen_and_tests(const Input& input)
   const auto& intermediate_stress = input.tests.of<ConfinementParameters>().intermediate_stress;
   for (const double confinement : input.confinements)
     if (any_takes_confining_pressure(input.test_list) && intermediate_stress && *intermediate_stress < confinement)
-      refuse(fmt::format("Tests/Intermediate stress = {:g} MPa: must be at least the least stress, and Confinements "
-                         "has {:g} MPa",
-                         *intermediate_stress / 1e6, confinement / 1e6));
+      throw InputError("Tests/Intermediate stress = {:g} MPa: must be at least the least stress, and Confinements "
+                       "has {:g} MPa",
+                       *intermediate_stress / 1e6, confinement / 1e6);
 }
 
 template <int dim>
 void check_specimen_of_file(const Input& input, const Specimen<dim>& specimen)
 {
   if (specimen.is_periodic())
-    refuse("Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen between walls (feldspar rve "
-           "takes a cell)");
+    throw InputError(
+      "Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen between walls (feldspar rve "
+      "takes a cell)");
   check_on_body(input, body_of(dim, specimen.shape));
 }
 
@@ -154,28 +143,26 @@ template <int dim>
 void check_cell(const Specimen<dim>& specimen, const std::string_view needed_by)
 {
   if (!specimen.is_periodic())
-    refuse(fmt::format("Specimen/Specimen file: is a specimen between walls; {} needs a periodic cell (feldspar lab "
-                       "takes walls)",
-                       needed_by));
+    throw InputError("Specimen/Specimen file: is a specimen between walls; {} needs a periodic cell (feldspar lab "
+                     "takes walls)",
+                     needed_by);
 }
 
 void check_rve_out_of_sample(const Input& input)
 {
   const std::string& file = input.specimen.specimen_file;
   if (input.strain_path.cell_angle != 0.0)
-    refuse(
-      fmt::format("Strain path/Cell angle: {} is an RVE in the state it has in its sample, which is in the axes of "
-                  "its cell; set Cell angle = 0 deg",
-                  file));
+    throw InputError("Strain path/Cell angle: {} is an RVE in the state it has in its sample, which is in the axes of "
+                     "its cell; set Cell angle = 0 deg",
+                     file);
   if (!input.flaws.all().empty())
-    refuse(
-      fmt::format("Flaws: {} is an RVE in the state it has in its sample, and takes none; put them into the RVE of "
-                  "the sample",
-                  file));
+    throw InputError("Flaws: {} is an RVE in the state it has in its sample, and takes none; put them into the RVE of "
+                     "the sample",
+                     file);
   if (input.strain_path.solver == PathSolver::explicit_dynamics)
-    refuse(fmt::format("Strain path/Solver = explicit: {} is an RVE in the state it has in its sample, and explicit "
-                       "dynamics begin at rest; set Solver = event by event",
-                       file));
+    throw InputError("Strain path/Solver = explicit: {} is an RVE in the state it has in its sample, and explicit "
+                     "dynamics begin at rest; set Solver = event by event",
+                     file);
 }
 
 void check_laboratory_input(const Input& input, const std::filesystem::path& input_file)
@@ -196,17 +183,17 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
       {
         check_no_groups(variant.input);
         if (variant.input.specimen.shape != BodyShape::periodic && variant.input.specimen.specimen_file.empty())
-          refuse(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
-                             find_parameter("Specimen/Shape")->write(variant.input)));
+          throw InputError("Specimen/Shape = {}: a representative volume needs Shape = periodic",
+                           find_parameter("Specimen/Shape")->write(variant.input));
         if (variant.input.strain_path.solver == PathSolver::event_by_event)
           check_equilibria(variant.input.specimen, "set Strain path/Solver = explicit or take another law");
         check_boundary(variant.input);
         if (variant.input.strain_path.solver == PathSolver::explicit_dynamics &&
             variant.input.boundary.kind != BoundaryKind::periodic)
-          refuse(
-            fmt::format("Representative volume/Boundary = {}: explicit dynamics have periodic cells only; set Strain "
-                        "path/Solver = event by event",
-                        name(variant.input.boundary)));
+          throw InputError(
+            "Representative volume/Boundary = {}: explicit dynamics have periodic cells only; set Strain "
+            "path/Solver = event by event",
+            name(variant.input.boundary));
         check(variant.input.strain_path);
       }
     reference_body(input);

@@ -12,8 +12,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <optional>
-#include <string>
 #include <thread>
 
 namespace feldspar
@@ -154,8 +152,8 @@ void check_memory(const RunPlan& plan, const std::vector<SpecimenOrder>& orders)
   const std::optional<double> free = free_memory();
   const GenesisEffort sum = together(plan, orders);
   if (free && sum.bytes > *free)
-    throw InputError(fmt::format("Specimen: {} specimen(s) of some {:.1e} grains need some {:.1f} GB of memory, and "
-                                 "{:.1f} GB are free; make them smaller, the grains larger or the seeds fewer",
-                                 orders.size(), sum.n_grains, sum.bytes / 1e9, *free / 1e9));
+    throw InputError("Specimen: {} specimen(s) of some {:.1e} grains need some {:.1f} GB of memory, and "
+                     "{:.1f} GB are free; make them smaller, the grains larger or the seeds fewer",
+                     orders.size(), sum.n_grains, sum.bytes / 1e9, *free / 1e9);
 }
 } // namespace feldspar

@@ -44,7 +44,7 @@ std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<S
   };
   for (std::size_t v = 0; v < plan.variants.size(); ++v)
     for (std::size_t s = 0; s < plan.orders.size(); ++s)
-      if (std::count(plan.orders[s].variants.begin(), plan.orders[s].variants.end(), v) > 0)
+      if (std::ranges::count(plan.orders[s].variants, v) > 0)
         add_tests(v, s);
   return planned;
 }
@@ -67,21 +67,16 @@ std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<L
   progress.remark(describe_effort<dim>(tests, plan.variants, specimens));
   RunBoard board(progress, "tests", parts, tells_failures);
   auto finished_tests = run_tests(tests, specimens, folder, board);
-  const auto n_made = std::count_if(finished_tests.begin(), finished_tests.end(),
-                                    [](const FinishedTest& test) { return test.was_made(); });
-  const auto n_failed = std::count_if(finished_tests.begin(), finished_tests.end(),
-                                      [](const FinishedTest& test) { return !test.record.failure.empty(); });
+  const auto n_made = std::ranges::count_if(finished_tests, &FinishedTest::was_made);
+  const auto n_failed =
+    std::ranges::count_if(finished_tests, [](const FinishedTest& test) { return !test.record.failure.empty(); });
   progress.finish(
     fmt::format("{} of {} done{}", n_made, tests.size(), n_failed > 0 ? fmt::format(", {} failed", n_failed) : ""));
   return finished_tests;
 }
 
-template std::vector<LaboratoryOrder> plan_tests<2>(const RunPlan&, const std::vector<Specimen<2>>&);
-template std::vector<LaboratoryOrder> plan_tests<3>(const RunPlan&, const std::vector<Specimen<3>>&);
-template std::vector<FinishedTest> run_programme<2>(const RunPlan&, const std::vector<LaboratoryOrder>&,
-                                                    std::vector<Specimen<2>>&, const std::filesystem::path&, Progress&,
-                                                    bool);
-template std::vector<FinishedTest> run_programme<3>(const RunPlan&, const std::vector<LaboratoryOrder>&,
-                                                    std::vector<Specimen<3>>&, const std::filesystem::path&, Progress&,
-                                                    bool);
+template decltype(plan_tests<2>) plan_tests<2>;
+template decltype(plan_tests<3>) plan_tests<3>;
+template decltype(run_programme<2>) run_programme<2>;
+template decltype(run_programme<3>) run_programme<3>;
 } // namespace feldspar

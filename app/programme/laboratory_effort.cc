@@ -100,8 +100,7 @@ std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std
   const TestEffort effort = expected_effort<dim>(tests, variants, specimens);
   constexpr double most_steps = 1e12; // weeks with a hundred joints
   if (effort.n_steps > most_steps)
-    throw InputError(
-      fmt::format("Tests: a test would take some {:.0e} steps; a strain rate is far too low", effort.n_steps));
+    throw InputError("Tests: a test would take some {:.0e} steps; a strain rate is far too low", effort.n_steps);
   const double bytes = bytes_of_program + bytes_of_specimens<dim>(tests, specimens) + effort.bytes;
   const double seconds = effort.seconds + seconds_of_pictures(effort.n_tests) / n_threads_served();
   return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {} with pictures{}",
@@ -129,19 +128,14 @@ void check_memory_of_tests(const RunPlan& plan)
   const double of_tests = bytes_of_tests(dimension, n_tests, most_grains, joints_of_grain * most_grains);
   const auto free = free_memory();
   if (free && of_specimens + of_tests > *free)
-    throw InputError(fmt::format("Tests: {:.0f} test(s) of {} specimen(s) of some {:.1e} grains need some {:.1f} GB of "
-                                 "memory, and {:.1f} GB are free; make the specimens smaller, the tests or variants "
-                                 "fewer, or use fewer threads (--threads)",
-                                 n_tests, plan.orders.size(), most_grains, (of_specimens + of_tests) / 1e9,
-                                 *free / 1e9));
+    throw InputError("Tests: {:.0f} test(s) of {} specimen(s) of some {:.1e} grains need some {:.1f} GB of "
+                     "memory, and {:.1f} GB are free; make the specimens smaller, the tests or variants "
+                     "fewer, or use fewer threads (--threads)",
+                     n_tests, plan.orders.size(), most_grains, (of_specimens + of_tests) / 1e9, *free / 1e9);
 }
 
-template TestEffort expected_effort<2>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,
-                                       std::span<const Specimen<2>>);
-template TestEffort expected_effort<3>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,
-                                       std::span<const Specimen<3>>);
-template std::string describe_effort<2>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,
-                                        std::span<const Specimen<2>>);
-template std::string describe_effort<3>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,
-                                        std::span<const Specimen<3>>);
+template decltype(expected_effort<2>) expected_effort<2>;
+template decltype(expected_effort<3>) expected_effort<3>;
+template decltype(describe_effort<2>) describe_effort<2>;
+template decltype(describe_effort<3>) describe_effort<3>;
 } // namespace feldspar

@@ -97,10 +97,9 @@ void check_confinement(const double pressure, const char* const entry, const Net
   const Voigt<dim> all_round = stress_voigt<dim>(-pressure * Tensor<dim>::Identity());
   const Voigt<dim> strain = network.intact_stiffness().partialPivLu().solve(all_round);
   if (const double size = strain.cwiseAbs().maxCoeff(); size > largest)
-    throw InputError(fmt::format("{}: {:g} MPa would strain the intact RVE by {:.2g} %; a pressure may strain "
-                                 "it by {:g} % at most, which is {:.0f} MPa",
-                                 entry, pressure / 1e6, 100.0 * size, 100.0 * largest,
-                                 pressure * largest / size / 1e6));
+    throw InputError("{}: {:g} MPa would strain the intact RVE by {:.2g} %; a pressure may strain "
+                     "it by {:g} % at most, which is {:.0f} MPa",
+                     entry, pressure / 1e6, 100.0 * size, 100.0 * largest, pressure * largest / size / 1e6);
 }
 } // namespace
 

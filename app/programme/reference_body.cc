@@ -4,8 +4,6 @@
 #include "dem/lab/protocols/protocols.h"
 #include "results/folder/result_folder.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 namespace feldspar
@@ -21,8 +19,7 @@ std::optional<BodyFigures> reference_body(const Input& input)
         figures->label = "reference " + folder.filename().string();
         return figures;
       }
-  throw InputError(
-    fmt::format("Report/Reference results = {}: no test in it was made on grains", input.reference_results));
+  throw InputError("Report/Reference results = {}: no test in it was made on grains", input.reference_results);
 }
 
 std::vector<std::string> beside_reference_body(const Input& input, const std::vector<SpecimenReport>& bodies)

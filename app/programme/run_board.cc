@@ -82,7 +82,7 @@ double RunBoard::strain_at_peak(const Entry& entry) const
   if (entry.peak->strain() > 0.0 && (entry.peak->has_fallen() || entry.finished))
     return entry.peak->strain();
   const TestCase& test = entry.part.test->test;
-  const auto sister = std::find_if(entries.begin(), entries.end(), [&](const Entry& other) {
+  const auto sister = std::ranges::find_if(entries, [&](const Entry& other) {
     return other.finished && other.peak->strain() > 0.0 && other.part.test->test.kind == test.kind &&
            other.part.test->test.confining_pressure == test.confining_pressure;
   });

@@ -1,6 +1,5 @@
 #include "app/programme/run_report.h"
 
-#include "app/input/curves/laboratory_curve.h"
 #include "app/run/interrupt.h"
 #include "app/screen/print_result.h"
 #include "base/append.h"
@@ -17,8 +16,6 @@
 #include "results/folder/field_output.h"
 #include "results/folder/result_folder.h"
 #include "results/folder/sample_field_output.h"
-
-#include <fmt/format.h>
 
 #include <utility>
 

@@ -134,8 +134,8 @@ double largest(const PathRecord<dim>& record, const Of& of)
 template <int dim>
 const PathSample<dim>& extreme(const PathRecord<dim>& record, const int k, const double sign)
 {
-  return *std::max_element(record.samples.begin(), record.samples.end(),
-                           [&](const auto& a, const auto& b) { return sign * a.stress[k] < sign * b.stress[k]; });
+  return *std::ranges::max_element(
+    record.samples, [&](const auto& a, const auto& b) { return sign * a.stress[k] < sign * b.stress[k]; });
 }
 
 template <int dim>

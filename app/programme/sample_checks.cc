@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 namespace feldspar
 {
@@ -28,11 +27,10 @@ void check_sample(const Input& input)
   const bool has_grains = input.sample.has_grains();
   const SampleGeometry geometry = input.sample.geometry;
   if (const unsigned int needed = dimension_of_rves(geometry); has_grains && input.specimen.dimension != needed)
-    throw InputError(fmt::format("Specimen/Dimension = {}: {}; set Dimension = {}", input.specimen.dimension,
-                                 needed == 2
-                                   ? "the RVEs of a plane sample are of discs (those of plane strain of spheres)"
-                                   : "the RVEs of such a Sample/Geometry are of spheres",
-                                 needed));
+    throw InputError("Specimen/Dimension = {}: {}; set Dimension = {}", input.specimen.dimension,
+                     needed == 2 ? "the RVEs of a plane sample are of discs (those of plane strain of spheres)"
+                                 : "the RVEs of such a Sample/Geometry are of spheres",
+                     needed);
   if (has_grains)
     for (const Variant& rock : rocks_of_sample(input))
       {
@@ -41,8 +39,8 @@ void check_sample(const Input& input)
       }
   check_boundary(input);
   if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != BodyShape::periodic)
-    throw InputError(fmt::format("Specimen/Shape = {}: the RVE at a point needs Shape = periodic",
-                                 find_parameter("Specimen/Shape")->write(input)));
+    throw InputError("Specimen/Shape = {}: the RVE at a point needs Shape = periodic",
+                     find_parameter("Specimen/Shape")->write(input));
   if (has_grains && !input.specimen.specimen_file.empty() && !input.sample.groups.empty())
     throw InputError("Sample/Rocks: a Specimen file is of one rock");
   if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
@@ -56,13 +54,12 @@ void check_sample(const Input& input)
   check_body(input, Body::sample);
   if (!has_grains && input.sample.weak_seed != WeakSeed::none)
     throw InputError("Sample/Weak seed: weakens the bonds between grains; it needs Material = grains");
-  const bool any_ends_by_its_peak = std::any_of(input.test_list.begin(), input.test_list.end(),
-                                                [](const TestKind& kind) { return !kind.follows_stages; });
+  const bool any_ends_by_its_peak =
+    std::ranges::any_of(input.test_list, [](const TestKind& kind) { return !kind.follows_stages; });
   if (!has_grains && !continuum_of(input.sample.material).softens && !input.tests.stop_strain && any_ends_by_its_peak)
-    throw InputError(
-      fmt::format("Tests/Stop strain = none: {} does not soften, so a test would not end; give the strain at which "
-                  "it is to stop",
-                  input.sample.material));
+    throw InputError("Tests/Stop strain = none: {} does not soften, so a test would not end; give the strain at which "
+                     "it is to stop",
+                     input.sample.material);
   if (input.sample.widened_past_peak && !input.tests.stop_strain && !input.tests.stop_stress_over_peak)
     throw InputError(
       "Sample/Control past the peak = lateral strain: the axial strain may go back, so that no multiple of that at "
@@ -72,8 +69,8 @@ void check_sample(const Input& input)
   if (!has_grains && geometry != SampleGeometry::plane && input.continuum.poissons_ratio >= 0.5)
     throw InputError("Continuum/Poisson ratio: must be below 0.5 in space");
   if (input.sample.mesh_file.empty() && !(input.sample.mesh_names.empty() && input.sample.groups.empty()))
-    throw InputError(fmt::format("Sample/{} of the groups of a mesh file; give Mesh file too",
-                                 input.sample.groups.empty() ? "Mesh names: are" : "Rocks: is"));
+    throw InputError("Sample/{} of the groups of a mesh file; give Mesh file too",
+                     input.sample.groups.empty() ? "Mesh names: are" : "Rocks: is");
   if (input.sample.reduced_quadrature && input.sample.order != 2)
     throw InputError("Sample/Quadrature = reduced: needs Order = 2; elements of order 1 would deform without strain");
   // Before the mesh is made, which would take all memory.
@@ -82,10 +79,9 @@ void check_sample(const Input& input)
   if (const double n =
         (geometry == SampleGeometry::cylinder ? n_across * n_across : n_across) * input.sample.elements_along;
       input.sample.mesh_file.empty() && n > most_cells)
-    throw InputError(
-      fmt::format("Sample/Elements across = {}, Elements along = {}: some {:.0e} cells; more than {:.0e} are not "
-                  "meshed",
-                  input.sample.elements_across, input.sample.elements_along, n, most_cells));
+    throw InputError("Sample/Elements across = {}, Elements along = {}: some {:.0e} cells; more than {:.0e} are not "
+                     "meshed",
+                     input.sample.elements_across, input.sample.elements_along, n, most_cells);
 }
 
 /// The size of a sample that can be run by so many processes.
@@ -93,10 +89,9 @@ SampleSize checked_size(const Input& input)
 {
   const SampleSize size = measure(input.sample);
   if (const std::uint64_t most = size.n_cells; ranks::number() > most)
-    throw InputError(
-      fmt::format("{} processes for a sample of {} cells: each needs one; start at most {}, and give them more "
-                  "threads",
-                  ranks::number(), most, most));
+    throw InputError("{} processes for a sample of {} cells: each needs one; start at most {}, and give them more "
+                     "threads",
+                     ranks::number(), most, most);
   return size;
 }
 
@@ -136,10 +131,9 @@ void check_intact(const Input& input, const Network<dim>& network)
 {
   const std::string& file = input.specimen.specimen_file;
   if (!file.empty() && read_rve_state(file, network))
-    throw InputError(
-      fmt::format("Specimen/Specimen file = {}: is an RVE in the state it had in a sample, and a sample begins with "
-                  "intact ones; feldspar rve goes on from that state",
-                  file));
+    throw InputError("Specimen/Specimen file = {}: is an RVE in the state it had in a sample, and a sample begins with "
+                     "intact ones; feldspar rve goes on from that state",
+                     file);
 }
 
 void check_sample_entries(const Input& input, const std::filesystem::path& input_file)

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 
 namespace feldspar
@@ -48,13 +47,13 @@ std::vector<std::string> names_of_rocks(const std::vector<Variant>& variants,
       for (const std::size_t user : users)
         std::erase_if(shared.back(), [&](const VariantSetting& setting) {
           const auto& own = variants[user].settings;
-          return std::none_of(own.begin(), own.end(), [&](const VariantSetting& other) {
+          return std::ranges::none_of(own, [&](const VariantSetting& other) {
             return other.entry == setting.entry && other.value == setting.value;
           });
         });
       by_number.push_back(fmt::format("variant_{}", users.front() + 1));
     }
-  const bool any_without = std::any_of(shared.begin(), shared.end(), [](const auto& one) { return one.empty(); });
+  const bool any_without = std::ranges::any_of(shared, [](const auto& one) { return one.empty(); });
   return any_without || variants.front().input.variants.named_by_number ? by_number : names_in_files(shared);
 }
 } // namespace
@@ -67,7 +66,7 @@ RunPlan::RunPlan(const Input& input)
   for (std::size_t v = 0; v < variants.size(); ++v)
     {
       const std::string wanted = rock(variants[v].input);
-      const auto known = std::find(rocks.begin(), rocks.end(), wanted);
+      const auto known = std::ranges::find(rocks, wanted);
       of_rock.resize(std::max(of_rock.size(), std::size_t(known - rocks.begin()) + 1));
       of_rock[std::size_t(known - rocks.begin())].push_back(v);
       if (known == rocks.end())
@@ -207,7 +206,7 @@ std::string describe(const std::vector<Flaw<dim>>& flaws)
   std::vector<Sum> sums;
   for (const auto& flaw : flaws)
     {
-      auto sum = std::find_if(sums.begin(), sums.end(), [&](const Sum& one) { return one.name == flaw.name; });
+      auto sum = std::ranges::find(sums, flaw.name, &Sum::name);
       if (sum == sums.end())
         sum = sums.insert(sums.end(), {flaw.name, flaw.open, 0, 0, 0});
       ++sum->n;

@@ -1,6 +1,7 @@
 #include "app/programme/usual_ranges.h"
 
 #include "app/input/parameter_table.h"
+#include "base/contains.h"
 #include "base/table/quantity.h"
 
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ void add_unusual(const Input& input, const Parameter& parameter, std::vector<std
         std::string sentence =
           fmt::format("{}: {} lies far outside {} to {}, the range of rocks and laboratories; is the unit meant?",
                       parameter.name(), in_its_unit(value), in_its_unit(usual->low), in_its_unit(usual->high));
-        if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
+        if (!contains(sentences, sentence))
           sentences.push_back(std::move(sentence));
         return;
       }

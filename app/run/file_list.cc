@@ -1,5 +1,6 @@
 #include "app/run/file_list.h"
 
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
@@ -29,10 +30,7 @@ constexpr const char* record_name = "run.json";
 constexpr const char* page_name = "report.html";
 constexpr const char* film_name = "film.webp";
 
-bool has(const std::vector<std::string_view>& names, const std::string& wanted)
-{
-  return std::find(names.begin(), names.end(), wanted) != names.end();
-}
+bool has(const std::vector<std::string_view>& names, const std::string& wanted) { return contains(names, wanted); }
 
 bool is_specimen(const std::string& name) { return name.starts_with("specimen") && name.ends_with(".h5"); }
 
@@ -206,7 +204,7 @@ FileList::~FileList()
     return;
   close(list);
   // A run that ends before its first result leaves nothing.
-  if (std::none_of(known.begin(), known.end(), [&](const std::string& file) { return is_there(folder / file); }))
+  if (std::ranges::none_of(known, [&](const std::string& file) { return is_there(folder / file); }))
     unlink((folder / list_name).c_str());
 }
 
@@ -239,21 +237,20 @@ void FileList::note(const std::filesystem::path& file)
 void check_links(const std::filesystem::path& folder)
 {
   const auto refuse = [](const fs::path& link) {
-    throw InputError(fmt::format("{}: is a link to another folder, into which results would be written; remove it, or "
-                                 "copy the folder there",
-                                 link.string()));
+    throw InputError("{}: is a link to another folder, into which results would be written; remove it, or "
+                     "copy the folder there",
+                     link.string());
   };
   if (fs::is_symlink(fs::symlink_status(folder / list_name)))
-    throw InputError(fmt::format("{}: is a link; the list of the files that runs wrote is to be a file: remove it",
-                                 (folder / list_name).string()));
+    throw InputError("{}: is a link; the list of the files that runs wrote is to be a file: remove it",
+                     (folder / list_name).string());
   for (const std::string_view name : places_of_runs.folders)
     {
       const fs::path own = folder / name;
       if (fs::is_symlink(fs::symlink_status(own)))
         refuse(own);
       if (is_there(own) && !fs::is_directory(own))
-        throw InputError(
-          fmt::format("{}: is a file, where a folder of results is to be; move it elsewhere", own.string()));
+        throw InputError("{}: is a file, where a folder of results is to be; move it elsewhere", own.string());
       if (fs::is_directory(own))
         for (const auto& entry : fs::recursive_directory_iterator(own))
           if (entry.is_symlink() && entry.is_directory())
@@ -276,17 +273,17 @@ void check_write_over(const std::filesystem::path& folder, const Places& places,
       const fs::path named = fs::weakly_canonical(plain(input).parent_path(), ignored) / plain(input).filename();
       const fs::path meant = fs::weakly_canonical(named, ignored);
       if (meant == whole || would_go(relative_to(whole, named)) || would_go(relative_to(whole, meant)))
-        throw InputError(fmt::format("--force: {} is read by this run and lies among the results in {} that it would "
-                                     "replace; choose another folder with --output",
-                                     input.string(), folder.string()));
+        throw InputError("--force: {} is read by this run and lies among the results in {} that it would "
+                         "replace; choose another folder with --output",
+                         input.string(), folder.string());
     }
   for (const auto& entry : fs::directory_iterator(folder))
     if (const std::string name = entry.path().filename().string(); places.include(name) && !has(places.folders, name) &&
                                                                    !of_runs.contains(name) &&
                                                                    (!is_specimen(name) || is_usual_specimen(name)))
-      throw InputError(fmt::format("--force: no run is known to have written {}, which this one would replace; move it "
-                                   "elsewhere, or choose another folder with --output",
-                                   (folder / name).string()));
+      throw InputError("--force: no run is known to have written {}, which this one would replace; move it "
+                       "elsewhere, or choose another folder with --output",
+                       (folder / name).string());
 }
 
 bool holds_a_run(const std::filesystem::path& folder) { return !files_of_runs(folder).empty(); }

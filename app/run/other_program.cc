@@ -3,7 +3,6 @@
 #include "base/input_error.h"
 #include "feldspar_version.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -28,8 +27,8 @@ void check_version_of_caller()
   const std::string of_caller = wanted;
   unsetenv(version_of_caller);
   if (of_caller != version)
-    throw InputError(fmt::format("{} is of version {}, and feldspar of {}; build or install both anew",
-                                 std::filesystem::read_symlink("/proc/self/exe").string(), version, of_caller));
+    throw InputError("{} is of version {}, and feldspar of {}; build or install both anew",
+                     std::filesystem::read_symlink("/proc/self/exe").string(), version, of_caller);
 }
 
 void go_on_as(const std::string& program)
@@ -45,7 +44,7 @@ void go_on_as(const std::string& program)
   arguments.push_back(nullptr);
   setenv(version_of_caller, std::string(version).c_str(), 1);
   execv(file.c_str(), arguments.data());
-  throw InputError(fmt::format("{}: cannot be run ({}); it is built and installed beside feldspar", file.string(),
-                               std::strerror(errno)));
+  throw InputError("{}: cannot be run ({}); it is built and installed beside feldspar", file.string(),
+                   std::strerror(errno));
 }
 } // namespace feldspar

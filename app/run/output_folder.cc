@@ -18,8 +18,8 @@ namespace
 {
 InputError cannot_write(const std::filesystem::path& folder, const int error)
 {
-  return InputError(fmt::format("{}: cannot be written into: {}; choose another folder with --output", folder.string(),
-                                std::generic_category().message(error)));
+  return InputError("{}: cannot be written into: {}; choose another folder with --output", folder.string(),
+                    std::generic_category().message(error));
 }
 } // namespace
 
@@ -83,9 +83,9 @@ void OutputFolder::make_wanted(const std::filesystem::path& wanted,
   if (std::filesystem::is_empty(folder))
     return;
   if (!write_over)
-    throw InputError(fmt::format(
-      "{}: is not empty; choose another folder with --output, or leave --output out for a new one{}", folder.string(),
-      holds_a_run(folder) ? " (--force replaces the run in it, and keeps all other files)" : ""));
+    throw InputError("{}: is not empty; choose another folder with --output, or leave --output out for a new one{}",
+                     folder.string(),
+                     holds_a_run(folder) ? " (--force replaces the run in it, and keeps all other files)" : "");
   write_over(folder);
 }
 
@@ -101,8 +101,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     {
       close(descriptor);
-      throw InputError(
-        fmt::format("{}: another feldspar works in this folder; wait for its end, or choose another", folder.string()));
+      throw InputError("{}: another feldspar works in this folder; wait for its end, or choose another",
+                       folder.string());
     }
 }
 

@@ -5,7 +5,6 @@
 #include "feldspar_version.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -45,8 +44,7 @@ Provenance provenance(const Input& input, const std::filesystem::path& input_fil
   result.input_file = input_file.filename().string();
   const std::vector<Variant> all = variants(input);
   for (const auto& parameter : parameter_table())
-    if (std::any_of(all.begin(), all.end(),
-                    [&](const Variant& variant) { return has_use_for(variant.input, parameter); }))
+    if (std::ranges::any_of(all, [&](const Variant& variant) { return has_use_for(variant.input, parameter); }))
       result.input.push_back({std::string(parameter.section), std::string(parameter.entry),
                               as_in_input(parameter.write(input), input.folder)});
   result.processor = processor_name();

@@ -1,7 +1,6 @@
 #include "app/run/run.h"
 
 #include "app/processes/mpi_session.h"
-#include "app/run/file_list.h"
 #include "app/run/interrupt.h"
 #include "app/run/output_folder.h"
 #include "app/run/run_record.h"
@@ -191,8 +190,7 @@ std::function<void(const std::filesystem::path&)> write_over(const CommonOptions
 int run_command(const RunCommand& command, const CommonOptions& options)
 {
   if (options.input.empty() && !options.resume)
-    throw InputError(
-      fmt::format("{0} needs an INPUT, or --resume with the folder of a run; see feldspar {0} --help", command.name));
+    throw InputError("{0} needs an INPUT, or --resume with the folder of a run; see feldspar {0} --help", command.name);
   watch_for_interrupt(ranks::is_first() && !options.quiet);
   return options.resume ? resume(command, options) : begin(command, options);
 }

@@ -3,6 +3,7 @@
 #include "app/input/parameter_table.h"
 #include "app/run/run.h"
 #include "base/checksum/fingerprint.h"
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
 #include "base/whole_file.h"
@@ -13,9 +14,7 @@
 
 #include <algorithm>
 #include <map>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace feldspar
 {
@@ -121,12 +120,11 @@ Contents read(const std::filesystem::path& folder)
     }
   catch (const nlohmann::json::exception&)
     {
-      throw InputError(
-        fmt::format("{}: not the folder of a run; {} is missing in it or damaged", folder.string(), record_name));
+      throw InputError("{}: not the folder of a run; {} is missing in it or damaged", folder.string(), record_name);
     }
   if (json.contains("checksum") && json["checksum"] != checksum_of(contents))
-    throw InputError(fmt::format("{}: {} in it is not as the run wrote it; undo the change, or begin another run",
-                                 folder.string(), record_name));
+    throw InputError("{}: {} in it is not as the run wrote it; undo the change, or begin another run", folder.string(),
+                     record_name);
   return contents;
 }
 } // namespace
@@ -138,7 +136,7 @@ std::vector<std::filesystem::path> named_files(const Input& input)
     for (const Parameter& parameter : parameter_table())
       if (parameter.range == none_or_a_file)
         if (const std::string value = parameter.write(variant.input);
-            value != none && std::find(files.begin(), files.end(), value) == files.end())
+            value != none && !contains(files, std::filesystem::path(value)))
           files.emplace_back(value);
   return files;
 }
@@ -183,14 +181,13 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
 {
   const Contents contents = read(folder);
   if (contents.command != command)
-    throw InputError(
-      fmt::format("{}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
+    throw InputError("{}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command);
   const std::filesystem::path copy = copy_of_input(folder, contents.input_file);
   const auto check = [&](const std::filesystem::path& file, const std::string& checksum) {
     if (checksum_of(file) != checksum)
-      throw InputError(fmt::format("{}: {} is not as it was when the run began (its checksum differs); put it "
-                                   "back, or begin a new run",
-                                   folder.string(), file.string()));
+      throw InputError("{}: {} is not as it was when the run began (its checksum differs); put it "
+                       "back, or begin a new run",
+                       folder.string(), file.string());
   };
   if (!contents.complete)
     {

@@ -6,7 +6,6 @@
 #include "base/whole_file.h"
 #include "base/write_at.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -97,10 +96,9 @@ std::optional<std::string> read_sealed(const std::filesystem::path& file)
     return std::nullopt;
   const Seal seal = examine_seal(file);
   if (seal == Seal::broken)
-    throw InputError(
-      fmt::format("{}: damaged: content and checksum do not agree; remove this file and resume the run, which "
-                  "computes anew what it kept",
-                  file.string()));
+    throw InputError("{}: damaged: content and checksum do not agree; remove this file and resume the run, which "
+                     "computes anew what it kept",
+                     file.string());
   if (seal == Seal::none)
     return std::nullopt;
   std::string content = content_of(file);

@@ -8,9 +8,7 @@
 
 #include <sys/mman.h>
 
-#include <optional>
 #include <stdexcept>
-#include <utility>
 
 namespace feldspar
 {
@@ -66,7 +64,7 @@ void read_from(const H5::H5File& in, const std::uint64_t size, const std::string
     }
   catch (const H5::Exception&)
     {
-      throw InputError(fmt::format("not an HDF5 file, cut short, or not {}", expected));
+      throw InputError("not an HDF5 file, cut short, or not {}", expected);
     }
 }
 
@@ -79,7 +77,7 @@ H5::H5File open_to_read(const std::filesystem::path& file, const std::string& ex
     }
   catch (const H5::Exception&)
     {
-      throw InputError(fmt::format("not an HDF5 file, cut short, or not {}", expected));
+      throw InputError("not an HDF5 file, cut short, or not {}", expected);
     }
 }
 
@@ -128,7 +126,7 @@ void read(const std::filesystem::path& file, const std::string& expected, const 
     }
   catch (const InputError& error)
     {
-      throw InputError(fmt::format("{}: {}; {} is expected", file.string(), error.what(), expected));
+      throw InputError("{}: {}; {} is expected", file.string(), error.what(), expected);
     }
 }
 } // namespace

@@ -3,7 +3,6 @@
 #include "base/input_error.h"
 
 #include <H5Cpp.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -122,7 +121,7 @@ public:
     const H5::Attribute attribute = single(name);
     const H5::StrType type = attribute.getStrType();
     if (!type.isVariableStr())
-      throw InputError(fmt::format("{} is no text", name));
+      throw InputError("{} is no text", name);
     attribute.read(type, stored);
     if (copy && !copy->attrExists(name))
       Hdf5Writer(*copy).text(name, stored);
@@ -138,8 +137,8 @@ public:
     values.resize(size_of(name, set));
     set.read(values.data(), stored_type<T>());
     if constexpr (std::is_same_v<T, double>)
-      if (!std::all_of(values.begin(), values.end(), [](const double v) { return std::isfinite(v); }))
-        throw InputError(fmt::format("{} holds a value that is not finite", name));
+      if (!std::ranges::all_of(values, [](const double v) { return std::isfinite(v); }))
+        throw InputError("{} holds a value that is not finite", name);
     if (copy && !copy->nameExists(name))
       Hdf5Writer(*copy).array(name, values);
   }
@@ -151,9 +150,9 @@ public:
     std::vector<std::uint8_t> raw;
     array(name, raw);
     if (raw.size() % sizeof(T) != 0)
-      throw InputError(fmt::format("{} has another layout", name));
+      throw InputError("{} has another layout", name);
     values.resize(raw.size() / sizeof(T));
-    std::copy(raw.begin(), raw.end(), reinterpret_cast<std::uint8_t*>(values.data()));
+    std::ranges::copy(raw, reinterpret_cast<std::uint8_t*>(values.data()));
   }
 
   bool has(const std::string& name) const { return group.nameExists(name); }
@@ -173,7 +172,7 @@ private:
   {
     H5::Attribute attribute = group.openAttribute(name);
     if (attribute.getSpace().getSimpleExtentNpoints() != 1)
-      throw InputError(fmt::format("{} is not one value", name));
+      throw InputError("{} is not one value", name);
     return attribute;
   }
 
@@ -182,7 +181,7 @@ private:
   {
     const hssize_t n = set.getSpace().getSimpleExtentNpoints();
     if (n < 0 || std::uint64_t(n) > file_size / set.getDataType().getSize())
-      throw InputError(fmt::format("{} is longer than the file", name));
+      throw InputError("{} is longer than the file", name);
     return std::size_t(n);
   }
 
@@ -198,9 +197,9 @@ void transfer_numbers(Archive& archive, const std::string& name, Numbers& number
   std::vector<double> values(numbers.begin(), numbers.end());
   archive.array(name, values);
   if (values.size() != numbers.size())
-    throw InputError(fmt::format("{} holds {} values instead of {}", name, values.size(), numbers.size()));
+    throw InputError("{} holds {} values instead of {}", name, values.size(), numbers.size());
   if constexpr (Archive::reads)
-    std::copy(values.begin(), values.end(), numbers.begin());
+    std::ranges::copy(values, numbers.begin());
 }
 
 /// The library is not made for several threads at once.

@@ -1,5 +1,6 @@
 #include "base/table/csv.h"
 
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -34,7 +34,7 @@ std::string from_utf16(std::string content, const std::string& name)
   std::size_t n_in = content.size();
   std::size_t n_out = result.size();
   if (iconv(conversion.get(), &in, &n_in, &out, &n_out) == std::size_t(-1))
-    throw InputError(fmt::format("{}: begins as UTF-16 and is not; save it as UTF-8", name));
+    throw InputError("{}: begins as UTF-16 and is not; save it as UTF-8", name);
   result.resize(result.size() - n_out);
   return result;
 }
@@ -94,7 +94,7 @@ bool is_perhaps_of_thousands(const std::string_view cell)
 std::string with_points(const std::string_view cell)
 {
   std::string text(cell);
-  std::replace(text.begin(), text.end(), ',', '.');
+  std::ranges::replace(text, ',', '.');
   return text;
 }
 
@@ -107,7 +107,7 @@ std::string without_commas(const std::string_view cell)
 
 bool is_blank(const std::vector<std::string_view>& cells)
 {
-  return std::all_of(cells.begin(), cells.end(), [](const std::string_view cell) { return cell.empty(); });
+  return std::ranges::all_of(cells, [](const std::string_view cell) { return cell.empty(); });
 }
 } // namespace
 
@@ -162,7 +162,7 @@ CsvReader::CsvReader(const std::filesystem::path& file, const IsHeader& is_heade
   for (auto column = columns.begin(); column != columns.end(); ++column)
     if (!column->empty() && of_numbers.find(column->front()) == of_numbers.npos &&
         std::find(columns.begin(), column, *column) != column)
-      throw InputError(fmt::format("{}:{}: the column {} is there twice", name, header_line, in_quotes(*column)));
+      throw InputError("{}:{}: the column {} is there twice", name, header_line, in_quotes(*column));
 }
 
 /// The next line with something on it, to its end outside of quotes.
@@ -181,23 +181,20 @@ bool CsvReader::read_line()
   for (bool is_open = is_below_preamble && opens_or_closes(line); is_open; is_open = is_open != opens_or_closes(more))
     {
       if (!std::getline(*stream, more))
-        throw InputError(fmt::format("{}:{}: a double quote is opened and not closed", name, first_line));
+        throw InputError("{}:{}: a double quote is opened and not closed", name, first_line);
       ++line_number;
       (line += '\n') += more;
     }
   return true;
 }
 
-bool CsvReader::has(const std::string_view column) const
-{
-  return std::find(columns.begin(), columns.end(), column) != columns.end();
-}
+bool CsvReader::has(const std::string_view column) const { return contains(columns, column); }
 
 std::size_t CsvReader::place(const std::string_view column) const
 {
-  const auto found = std::find(columns.begin(), columns.end(), column);
+  const auto found = std::ranges::find(columns, column);
   if (found == columns.end())
-    throw InputError(fmt::format("{}:{}: there is no column {}", name, header_line, column));
+    throw InputError("{}:{}: there is no column {}", name, header_line, column);
   return std::size_t(found - columns.begin());
 }
 
@@ -214,7 +211,7 @@ std::optional<std::size_t> CsvReader::find_in_si(const std::string_view name_in_
     {
       const auto [name_of_column, unit] = title_with_mark_of(columns[c]);
       const auto refusal = [&](const std::string_view what) {
-        return InputError(fmt::format("{}:{}: {}: {}", name, header_line, in_quotes(columns[c]), what));
+        return InputError("{}:{}: {}: {}", name, header_line, in_quotes(columns[c]), what);
       };
       const bool is_in_si = plain_name(columns[c]) == plain_name(name_in_si);
       if (!is_in_si && plain_name(name_of_column) != wanted)
@@ -224,14 +221,8 @@ std::optional<std::size_t> CsvReader::find_in_si(const std::string_view name_in_
       if (!is_in_si && unit.empty())
         throw refusal(fmt::format("has no unit; write it as in \"{} [{}]\"", wanted, dimension->si_unit));
       found = c;
-      try
-        {
-          units[c] = is_in_si ? 1.0 : unit_in_si(unit, *dimension);
-        }
-      catch (const InputError& error)
-        {
-          throw refusal(error.what());
-        }
+      units[c] =
+        is_in_si ? 1.0 : rephrased([&, &unit = unit, of = dimension] { return unit_in_si(unit, *of); }, refusal);
     }
   return found;
 }
@@ -252,9 +243,8 @@ bool CsvReader::next()
   while (cells.size() > columns.size() && cells.back().empty())
     cells.pop_back();
   if (cells.size() != columns.size())
-    throw InputError(fmt::format("{}:{}: there must be {} values, one for each of {}; found {}", name, line_number,
-                                 columns.size(), excerpt(fmt::format("{}", fmt::join(columns, ",")), longest_quote),
-                                 cells.size()));
+    throw InputError("{}:{}: there must be {} values, one for each of {}; found {}", name, line_number, columns.size(),
+                     excerpt(fmt::format("{}", fmt::join(columns, ",")), longest_quote), cells.size());
   return true;
 }
 
@@ -271,7 +261,7 @@ double CsvReader::number(const std::size_t column) const
 {
   const std::string_view cell = cells[column];
   const auto refusal = [&](const std::string& what) {
-    return InputError(fmt::format("{}:{}: {}: {}", name, line_number, excerpt(columns[column]), what));
+    return InputError("{}:{}: {}: {}", name, line_number, excerpt(columns[column]), what);
   };
   const char sign = cell.find('.') != std::string_view::npos                       ? '.'
                     : separator != ',' && cell.find(',') != std::string_view::npos ? ','
@@ -293,30 +283,20 @@ double CsvReader::number(const std::size_t column) const
       decimal_sign = sign;
       ambiguous.clear();
     }
-  try
-    {
-      return units[column] * parse_number(with_point);
-    }
-  catch (const InputError& error)
-    {
-      throw refusal(error.what());
-    }
+  return units[column] * rephrased([&] { return parse_number(with_point); }, refusal);
 }
 
 double CsvReader::number_or_nan(const std::size_t column) const
 {
-  double value = 0.0;
-  const std::string_view cell = cells[column];
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return error == std::errc() && end == cell.data() + cell.size() ? value : number(column); // which tells the reason
+  const auto value = number_in<double>(cells[column]);
+  return value ? *value : number(column); // which tells the reason
 }
 
 double CsvReader::count(const std::size_t column, const double most) const
 {
   const double value = number_or_nan(column);
   if (!(value >= 0.0 && value <= most && value == std::floor(value)))
-    throw InputError(
-      fmt::format("{}:{}: {} is no count or number of something", name, line_number, in_quotes(cells[column])));
+    throw InputError("{}:{}: {} is no count or number of something", name, line_number, in_quotes(cells[column]));
   return value;
 }
 
@@ -330,8 +310,8 @@ std::vector<std::vector<double>> read_csv(const std::filesystem::path& file, con
   const auto& given = table.header();
   const auto n_given = std::size_t(std::ranges::count_if(given, [](const auto name) { return !name.empty(); }));
   if (places.size() != split_at_commas(header).size() || places.size() != n_given)
-    throw InputError(fmt::format("{}:{}: the header is {}; it must be \"{}\"", file.string(), table.line_of_header(),
-                                 in_quotes(fmt::format("{}", fmt::join(given, ","))), header));
+    throw InputError("{}:{}: the header is {}; it must be \"{}\"", file.string(), table.line_of_header(),
+                     in_quotes(fmt::format("{}", fmt::join(given, ","))), header);
   std::vector<std::vector<double>> rows;
   while (table.next())
     {
@@ -340,7 +320,7 @@ std::vector<std::vector<double>> read_csv(const std::filesystem::path& file, con
         row.push_back(table.number(place));
     }
   if (rows.empty())
-    throw InputError(fmt::format("{}: there is no row below the header", file.string()));
+    throw InputError("{}: there is no row below the header", file.string());
   return rows;
 }
 
@@ -366,7 +346,7 @@ ColumnTitle title_with_mark_of(const std::string_view column)
 std::string plain_name(const std::string_view name)
 {
   std::string plain = in_small_letters(trim(name));
-  std::replace(plain.begin(), plain.end(), '_', ' ');
+  std::ranges::replace(plain, '_', ' ');
   return plain;
 }
 } // namespace feldspar

@@ -19,8 +19,6 @@ namespace feldspar
 {
 namespace
 {
-bool is_digit(const char c) { return '0' <= c && c <= '9'; }
-
 /// Letters of any language: every byte of a UTF-8 sequence counts as one.
 bool is_letter(const char c)
 {
@@ -29,10 +27,7 @@ bool is_letter(const char c)
 
 std::size_t count_digits(const std::string_view text)
 {
-  std::size_t n = 0;
-  while (n < text.size() && is_digit(text[n]))
-    ++n;
-  return n;
+  return std::min(text.find_first_not_of("0123456789"), text.size());
 }
 
 /// Returns whether all of the text is names with integer powers, joined by . * /, as in kg/m^3 or N.mm-2; 1/s is one
@@ -152,13 +147,13 @@ std::size_t find_space(const std::string_view text, const Dimension& dimension)
   const std::size_t space = text.find(' ');
   const std::string_view number = text.substr(0, space);
   if (text.empty() || (space == std::string_view::npos && is_known_unit(text)))
-    throw InputError(fmt::format("a number is missing; {}", advice(dimension)));
+    throw InputError("a number is missing; {}", advice(dimension));
   if (!is_decimal_number(number))
-    throw InputError(fmt::format("{} is not a decimal number; {}", in_quotes(number), advice(dimension)));
+    throw InputError("{} is not a decimal number; {}", in_quotes(number), advice(dimension));
   if (space == std::string_view::npos)
-    throw InputError(fmt::format("a unit is missing; {}", advice(dimension)));
+    throw InputError("a unit is missing; {}", advice(dimension));
   if (!is_unit_expression(text.substr(space + 1)))
-    throw InputError(fmt::format("{} is not one unit; {}", in_quotes(text.substr(space + 1)), advice(dimension)));
+    throw InputError("{} is not one unit; {}", in_quotes(text.substr(space + 1)), advice(dimension));
   return space;
 }
 } // namespace
@@ -169,13 +164,13 @@ double to_si(const double value, const std::string_view unit, const Dimension& d
   const Owner<ut_unit> from = parse_unit(unit);
   const Owner<ut_unit> si = parse_unit(dimension.si_unit);
   if (!from)
-    throw InputError(fmt::format("{} is not a known unit; {}", in_quotes(unit), advice(dimension)));
+    throw InputError("{} is not a known unit; {}", in_quotes(unit), advice(dimension));
   if (!are_of_one_dimension(from.get(), si.get()))
-    throw InputError(fmt::format("{} is not the unit of {}; {}", in_quotes(unit), dimension.name, advice(dimension)));
+    throw InputError("{} is not the unit of {}; {}", in_quotes(unit), dimension.name, advice(dimension));
   const Owner<cv_converter> converter(ut_get_converter(from.get(), si.get()));
   const double in_si = cv_convert_double(converter.get(), value);
   if (std::isfinite(value) && !std::isfinite(in_si))
-    throw InputError(fmt::format("{:g} {} is beyond the range of numbers; {}", value, unit, advice(dimension)));
+    throw InputError("{:g} {} is beyond the range of numbers; {}", value, unit, advice(dimension));
   return in_si;
 }
 
@@ -184,7 +179,7 @@ double with_usual_exponent(const double value)
   constexpr double smallest = 1e-30;
   constexpr double largest = 1e30;
   if (std::abs(value) > largest)
-    throw InputError(fmt::format("is too large; a number is at most {:g} in SI units", largest));
+    throw InputError("is too large; a number is at most {:g} in SI units", largest);
   return std::abs(value) < smallest ? 0.0 : value;
 }
 
@@ -203,7 +198,7 @@ std::vector<std::string> values_of_range(const std::string_view text)
   if (dots == std::string_view::npos || !is_decimal_number(first))
     return {std::string(text)};
   const auto refusal = [&](const std::string_view what) {
-    return InputError(fmt::format("{}: {}; a range is written as in \"10..60 MPa step 10\"", in_quotes(text), what));
+    return InputError("{}: {}; a range is written as in \"10..60 MPa step 10\"", in_quotes(text), what);
   };
   const std::string_view rest = trim(text.substr(dots + 2));
   const std::size_t word = rest.find(step_word);
@@ -249,7 +244,7 @@ std::vector<double> parse_quantities(const std::string_view text, const Dimensio
     for (std::string value : values_of_range(pieces[k]))
       {
         if (k + 1 < pieces.size() && value.find(' ') != std::string::npos)
-          throw InputError(fmt::format("{}: the unit stands once, after the last number", in_quotes(value)));
+          throw InputError("{}: the unit stands once, after the last number", in_quotes(value));
         values.push_back(parse_quantity(k + 1 < pieces.size() ? value + unit : value, dimension));
       }
   return values;

@@ -10,14 +10,11 @@
 
 #include <Eigen/Geometry>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <stdexcept>
-#include <variant>
 
 namespace feldspar
 {
@@ -317,7 +314,7 @@ void Network<dim>::bound_segments()
       const double overload = largest_overload(bonds[k], {normal, normal, shear});
       bounds.push_back({overload, k});
     }
-  std::sort(bounds.begin(), bounds.end(), [](const Bound& a, const Bound& b) {
+  std::ranges::sort(bounds, [](const Bound& a, const Bound& b) {
     return a.overload != b.overload ? a.overload > b.overload : a.segment < b.segment;
   });
 

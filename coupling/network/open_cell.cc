@@ -44,9 +44,8 @@ std::map<std::size_t, PeriodicImage<dim>> images_held(
   std::map<std::size_t, PeriodicImage<dim>> held;
   while (held.size() < candidates.size())
     {
-      const auto most = std::max_element(waiting.begin(), waiting.end(), [](const auto& one, const auto& other) {
-        return one.second.size() < other.second.size();
-      });
+      const auto most = std::ranges::max_element(
+        waiting, [](const auto& one, const auto& other) { return one.second.size() < other.second.size(); });
       const auto [image, joints] = *most;
       for (const std::size_t joint : joints)
         {

@@ -64,7 +64,7 @@ RigidMotions<dim>::RigidMotions(const std::vector<Link<dim>>& links, const std::
               hangs_on_image = true;
           }
 
-      if (std::any_of(group.grains.begin(), group.grains.end(), [&](const auto grain) { return is_bound[grain]; }))
+      if (std::ranges::any_of(group.grains, [&](const auto grain) { return is_bound[grain]; }))
         continue;
 
       constexpr int n = n_motions<dim>;

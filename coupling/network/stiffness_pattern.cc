@@ -3,7 +3,6 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -60,7 +59,7 @@ void StiffnessPattern::find_fill(std::vector<std::vector<std::uint32_t>> columns
   for (std::size_t c = 0; c < n; ++c)
     {
       auto& column = columns[c];
-      std::sort(column.begin(), column.end());
+      std::ranges::sort(column);
       column.erase(std::unique(column.begin(), column.end()), column.end());
       if (column.size() > 1)
         columns[column.front()].insert(columns[column.front()].end(), std::next(column.begin()), column.end());

@@ -89,8 +89,8 @@ std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Config
   if (parameters.break_rule == BreakRule::only_worst)
     {
       // The first by number among equals.
-      const auto first = std::find_if(result.begin(), result.end(),
-                                      [&](const Overload& overload) { return overload.ratio >= worst * (1.0 - tie); });
+      const auto first =
+        std::ranges::find_if(result, [&](const Overload& overload) { return overload.ratio >= worst * (1.0 - tie); });
       return first == result.end() ? std::vector<Overload>() : std::vector<Overload>{*first};
     }
   std::erase_if(result,

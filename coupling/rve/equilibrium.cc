@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <variant>
 
 namespace feldspar
 {
@@ -212,8 +211,8 @@ NetworkState<dim> Equilibrium<dim>::state()
         }
     }
   const auto by_segment = [](const auto& a, const auto& b) { return a.segment < b.segment; };
-  std::sort(result.unbonded.begin(), result.unbonded.end(), by_segment);
-  std::sort(result.softened.begin(), result.softened.end(), by_segment);
+  std::ranges::sort(result.unbonded, by_segment);
+  std::ranges::sort(result.softened, by_segment);
   return result;
 }
 

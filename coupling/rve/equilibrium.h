@@ -3,7 +3,6 @@
 #include "coupling/rve/breaking.h"
 #include "coupling/rve/relaxation.h"
 
-#include <memory>
 #include <optional>
 #include <vector>
 

@@ -1,5 +1,6 @@
 #include "coupling/rve/explicit_run.h"
 
+#include "base/contains.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/path_checkpoint.h"
 #include "coupling/rve/path_sample.h"
@@ -62,11 +63,10 @@ NetworkState<dim> ExplicitRun<dim>::state() const
   const PathSample<dim>& sample = path_record.samples.back();
   NetworkState<dim> result = intact.state();
   result.strain = strain;
-  std::copy(sample.stress.begin(), sample.stress.end(), result.stress.data());
+  std::ranges::copy(sample.stress, result.stress.data());
   for (const auto& crack : path_record.cracks)
     result.unbonded.push_back({intact.network().links()[crack.joint].first_segment + crack.segment, {}});
-  std::sort(result.unbonded.begin(), result.unbonded.end(),
-            [](const auto& a, const auto& b) { return a.segment < b.segment; });
+  std::ranges::sort(result.unbonded, [](const auto& a, const auto& b) { return a.segment < b.segment; });
   result.intact = result.unbonded.empty();
   result.n_tension_breaks = std::uint32_t(sample.n_tension_cracks);
   result.n_shear_breaks = std::uint32_t(sample.n_shear_cracks);
@@ -104,8 +104,7 @@ void ExplicitRun<dim>::go_an_increment()
   for (int k = 0; k < n_voigt<dim>; ++k)
     if (!end.stress_given[k])
       way[k] = (end.strain[k] - strain[k]) / double(n_steps);
-  const bool served_stress =
-    std::find(end.stress_given.begin(), end.stress_given.end(), true) != end.stress_given.end();
+  const bool served_stress = contains(end.stress_given, true);
   for (std::uint64_t s = 1; s <= n_steps; ++s)
     step(served_stress ? served(control_at(s), way) : way);
   ++increment;

@@ -16,8 +16,7 @@ std::vector<std::uint32_t> broken_segments(const Network<dim>& network, const Ne
 {
   std::vector<std::uint32_t> broken;
   for (const auto& unbonded : state.unbonded)
-    if (unbonded.segment < network.n_segments() &&
-        !std::binary_search(network.unbonded().begin(), network.unbonded().end(), unbonded.segment))
+    if (unbonded.segment < network.n_segments() && !std::ranges::binary_search(network.unbonded(), unbonded.segment))
       broken.push_back(unbonded.segment);
   return broken;
 }
@@ -176,7 +175,7 @@ std::size_t n_fragments(const Network<dim>& network, const NetworkState<dim>& st
     if (const Link<dim>& link = network.links()[j]; n_unbonded[j] < link.n_segments)
       sets.merge(link.grain_1, link.grain_2);
   const std::vector<std::uint32_t> n_members = sets.sizes();
-  return std::size_t(std::count_if(n_members.begin(), n_members.end(), [](const auto n) { return n > 1; }));
+  return std::size_t(std::ranges::count_if(n_members, [](const auto n) { return n > 1; }));
 }
 
 template <int dim>
@@ -203,26 +202,24 @@ IsotropicConstants isotropic_constants(const Stiffness<dim>& stiffness)
   return result;
 }
 
-template LinkForces<2> link_forces<2>(const Network<2>&, const NetworkState<2>&);
-template Tensor<2> branch_stress<2>(const Network<2>&, const LinkForces<2>&);
-template Tensor<2> boundary_stress<2>(const Network<2>&, const BoundaryConditions<2>&, const LinkForces<2>&);
+template decltype(link_forces<2>) link_forces<2>;
+template decltype(branch_stress<2>) branch_stress<2>;
+template decltype(boundary_stress<2>) boundary_stress<2>;
 template BorneForces<2> borne_forces(const Network<2>&, const BoundaryConditions<2>&, LinkForces<2>);
-template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const BorneForces<2>&,
-                                        const NetworkState<2>&, const BorneForces<2>&, double);
-template Tensor<2> fabric<2>(const Network<2>&);
+template decltype(hill_mandel_residual<2>) hill_mandel_residual<2>;
+template decltype(fabric<2>) fabric<2>;
 template SegmentPlace<2> segment_place<2>(const Network<2>&, std::size_t, std::size_t);
-template CrackMeasures<2> crack_measures<2>(const Network<2>&, const NetworkState<2>&);
-template std::size_t n_fragments<2>(const Network<2>&, const NetworkState<2>&);
-template IsotropicConstants isotropic_constants<2>(const Stiffness<2>&);
-template LinkForces<3> link_forces<3>(const Network<3>&, const NetworkState<3>&);
-template Tensor<3> branch_stress<3>(const Network<3>&, const LinkForces<3>&);
-template Tensor<3> boundary_stress<3>(const Network<3>&, const BoundaryConditions<3>&, const LinkForces<3>&);
+template decltype(crack_measures<2>) crack_measures<2>;
+template decltype(n_fragments<2>) n_fragments<2>;
+template decltype(isotropic_constants<2>) isotropic_constants<2>;
+template decltype(link_forces<3>) link_forces<3>;
+template decltype(branch_stress<3>) branch_stress<3>;
+template decltype(boundary_stress<3>) boundary_stress<3>;
 template BorneForces<3> borne_forces(const Network<3>&, const BoundaryConditions<3>&, LinkForces<3>);
-template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const BorneForces<3>&,
-                                        const NetworkState<3>&, const BorneForces<3>&, double);
-template Tensor<3> fabric<3>(const Network<3>&);
+template decltype(hill_mandel_residual<3>) hill_mandel_residual<3>;
+template decltype(fabric<3>) fabric<3>;
 template SegmentPlace<3> segment_place<3>(const Network<3>&, std::size_t, std::size_t);
-template CrackMeasures<3> crack_measures<3>(const Network<3>&, const NetworkState<3>&);
-template std::size_t n_fragments<3>(const Network<3>&, const NetworkState<3>&);
-template IsotropicConstants isotropic_constants<3>(const Stiffness<3>&);
+template decltype(crack_measures<3>) crack_measures<3>;
+template decltype(n_fragments<3>) n_fragments<3>;
+template decltype(isotropic_constants<3>) isotropic_constants<3>;
 } // namespace feldspar

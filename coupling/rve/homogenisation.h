@@ -4,7 +4,6 @@
 #include "dem/storage/segment_place.h"
 
 #include <cstddef>
-#include <vector>
 
 /// Transition from grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar

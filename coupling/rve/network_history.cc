@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 namespace feldspar
 {
@@ -92,7 +91,7 @@ void NetworkHistory<dim>::release_loose_pairs()
     if (number[joint] == none)
       return true;
     const auto& segments = active_links[number[joint]].segments;
-    return std::any_of(segments.begin(), segments.end(), [](const auto& segment) { return segment.bonded; });
+    return std::ranges::any_of(segments, [](const auto& segment) { return segment.bonded; });
   };
   auto left = bearing->that_bear(of.links(), of.n_joints(), of.n_grains(), holds);
   const auto n_pairs = [](const BoundaryConditions<dim>& conditions) {

@@ -2,7 +2,6 @@
 
 #include "base/parallel.h"
 #include "coupling/rve/path_checkpoint.h"
-#include "coupling/rve/path_sample.h"
 #include "coupling/rve/state_archive.h"
 
 #include <fmt/format.h>

@@ -85,7 +85,7 @@ template <int dim>
 bool is_finite(const PathSample<dim>& row)
 {
   const auto all = [](const auto& numbers) {
-    return std::all_of(numbers.begin(), numbers.end(), [](const double one) { return std::isfinite(one); });
+    return std::ranges::all_of(numbers, [](const double one) { return std::isfinite(one); });
   };
   return all(row.strain) && all(row.stress) &&
          std::all_of(std::begin(path_columns<dim>), std::end(path_columns<dim>),

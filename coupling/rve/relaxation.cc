@@ -127,9 +127,9 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
         constexpr double round_off = 1e-12;
         return response.derivative.isApprox(response.derivative.transpose(), round_off);
       };
-      const bool symmetric = std::all_of(present.active.begin(), present.active.end(), is_symmetric) &&
-                             std::all_of(present.touches.begin(), present.touches.end(),
-                                         [&](const auto& touch) { return is_symmetric(touch.second); });
+      const bool symmetric =
+        std::ranges::all_of(present.active, is_symmetric) &&
+        std::ranges::all_of(present.touches, [&](const auto& touch) { return is_symmetric(touch.second); });
       const Unknowns right = unbalanced(network, present, control);
       const auto apply = [&](const Unknowns& x) {
         Unknowns y = apply_tangent(history, present, x, &LinkResponse<dim>::derivative) +

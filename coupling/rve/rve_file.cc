@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace feldspar
 {
@@ -29,14 +28,13 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
   const auto by_segment = [](const auto& a, const auto& b) { return a.segment < b.segment; };
   const auto not_ascending = [](const auto& a, const auto& b) { return a.segment >= b.segment; };
   const auto is_finite = [](const auto& values) {
-    return std::all_of(values.begin(), values.end(), [](const double value) { return std::isfinite(value); });
+    return std::ranges::all_of(values, [](const double value) { return std::isfinite(value); });
   };
   const auto is_of_network = [&](const UnbondedSegment<dim>& unbonded) {
     return unbonded.segment < n_segments && is_finite(unbonded.shear_stress);
   };
   const auto is_unbonded = [&](const std::uint32_t segment) {
-    return std::any_of(state.unbonded.begin(), state.unbonded.end(),
-                       [&](const auto& unbonded) { return unbonded.segment == segment; });
+    return std::ranges::any_of(state.unbonded, [&](const auto& unbonded) { return unbonded.segment == segment; });
   };
   const auto is_softened = [&](const SoftenedSegment<dim>& softened) {
     const auto& [damage, by_shear, dissipated] = softened.more;
@@ -46,13 +44,11 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
   };
   return (state.motions.empty() || state.motions.size() == n_motions<dim> * network.n_grains()) &&
          (state.intact || !state.motions.empty()) && state.stress.allFinite() && state.strain.allFinite() &&
-         state.strain.cwiseAbs().maxCoeff() <= largest_strain &&
-         std::all_of(state.unbonded.begin(), state.unbonded.end(), is_of_network) &&
-         std::all_of(state.softened.begin(), state.softened.end(), is_softened) &&
-         std::adjacent_find(state.softened.begin(), state.softened.end(), not_ascending) == state.softened.end() &&
+         state.strain.cwiseAbs().maxCoeff() <= largest_strain && std::ranges::all_of(state.unbonded, is_of_network) &&
+         std::ranges::all_of(state.softened, is_softened) &&
+         std::ranges::adjacent_find(state.softened, not_ascending) == state.softened.end() &&
          (state.contact_shear.empty() || state.contact_shear.size() == network.n_segments()) &&
-         std::all_of(state.contact_shear.begin(), state.contact_shear.end(), is_finite) &&
-         std::is_sorted(state.unbonded.begin(), state.unbonded.end(), by_segment);
+         std::ranges::all_of(state.contact_shear, is_finite) && std::ranges::is_sorted(state.unbonded, by_segment);
 }
 } // namespace
 
@@ -82,9 +78,8 @@ std::optional<NetworkState<dim>> read_rve_state(const std::filesystem::path& fil
     if (group.has_attribute(key_of_boundary))
       group.text(key_of_boundary, boundary);
     if (boundary != name(network.boundary()))
-      throw InputError(fmt::format("its state is that of an RVE whose boundary is {}, and {} is {}",
-                                   in_quotes(boundary), in_words(parameter_id<&Boundary::kind>()),
-                                   name(network.boundary())));
+      throw InputError("its state is that of an RVE whose boundary is {}, and {} is {}", in_quotes(boundary),
+                       in_words(parameter_id<&Boundary::kind>()), name(network.boundary()));
     transfer(group, state.emplace());
     if (!fits(*state, network))
       throw InputError("its state is not that of its specimen");

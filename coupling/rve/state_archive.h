@@ -4,8 +4,6 @@
 #include "base/voigt.h"
 #include "coupling/network/network_state.h"
 
-#include <string>
-
 /// The state of an RVE, described once for all archives: HDF5 files (base/system/hdf5_archive.h) and plain bytes
 /// (base/byte_archive.h).
 namespace feldspar

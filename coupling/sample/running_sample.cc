@@ -189,15 +189,14 @@ void SampleTest::Parts::gather_cracks()
   std::vector<Crack>& broken = breaks.cracks;
   const auto n_of = [&](const CrackKind kind) {
     const auto is = [=](const Crack& crack) { return crack.kind == kind; };
-    return ranks::sum(std::uint64_t(std::count_if(broken.begin(), broken.end(), is)));
+    return ranks::sum(std::uint64_t(std::ranges::count_if(broken, is)));
   };
   n_tension += n_of(CrackKind::tension);
   n_shear += n_of(CrackKind::shear);
   const auto gather = [](auto& rows, const auto number) {
     using Row = typename std::remove_reference_t<decltype(rows)>::value_type;
     rows = values_of<Row>(ranks::gathered(bytes_of(rows)));
-    std::stable_sort(rows.begin(), rows.end(),
-                     [=](const Row& one, const Row& other) { return one.*number < other.*number; });
+    std::ranges::stable_sort(rows, [=](const Row& one, const Row& other) { return one.*number < other.*number; });
   };
   gather(broken, &Crack::joint);
   gather(breaks.events, &EmissionEvent::number);

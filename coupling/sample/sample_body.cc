@@ -1,6 +1,5 @@
 #include "coupling/sample/sample_body.h"
 
-#include "base/input_error.h"
 #include "base/parameter_id.h"
 #include "base/ranks/communicator.h"
 #include "base/ranks/ranks.h"
@@ -17,7 +16,6 @@
 
 #include <algorithm>
 #include <any>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -481,10 +479,6 @@ std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample,
   return make_body<3>(sample, set_up, [&](const auto&) { return material.in_space(continuum); });
 }
 
-template std::unique_ptr<SampleBody> make_body_of_grains<2>(const SampleParameters&, const SampleSetUp&,
-                                                            const EquilibriumParameters&, std::vector<Realisation<2>>,
-                                                            std::uint64_t);
-template std::unique_ptr<SampleBody> make_body_of_grains<3>(const SampleParameters&, const SampleSetUp&,
-                                                            const EquilibriumParameters&, std::vector<Realisation<3>>,
-                                                            std::uint64_t);
+template decltype(make_body_of_grains<2>) make_body_of_grains<2>;
+template decltype(make_body_of_grains<3>) make_body_of_grains<3>;
 } // namespace feldspar

@@ -7,8 +7,6 @@
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/running_sample.h"
 
-#include <fmt/format.h>
-
 #include <type_traits>
 #include <utility>
 
@@ -189,7 +187,7 @@ void SampleTest::read_state(const std::filesystem::path& checkpoint, const std::
     }
   catch (const std::exception& error)
     {
-      throw InputError(fmt::format("{}: {}", checkpoint.string(), error.what()));
+      throw InputError("{}: {}", checkpoint.string(), error.what());
     }
 }
 } // namespace feldspar

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace feldspar
@@ -90,8 +89,8 @@ SampleRve<dim> SampleTest::rve_at(const unsigned int cell, const unsigned int po
 {
   const std::size_t n = parts->body->n_points_per_cell();
   if (point >= n || cell >= parts->standing.n_points / n)
-    throw InputError(fmt::format("there is no point {} in a cell {}: cells are 0 to {}, their points 0 to {}", point,
-                                 cell, parts->standing.n_points / n - 1, n - 1));
+    throw InputError("there is no point {} in a cell {}: cells are 0 to {}, their points 0 to {}", point, cell,
+                     parts->standing.n_points / n - 1, n - 1);
   return std::get<SampleRve<dim>>(parts->body->rve(n * cell + point).value());
 }
 

@@ -15,7 +15,7 @@ constexpr double wall_reach_over_skin = 0.25; // as near as a wall may come to a
 
 template <int dim>
 ContactWatch<dim>::ContactWatch(const Grains<dim>& grains)
-  : widest_gap(skin_over_smallest_radius * *std::min_element(grains.radius.begin(), grains.radius.end()))
+  : widest_gap(skin_over_smallest_radius * *std::ranges::min_element(grains.radius))
 {
 }
 

@@ -148,7 +148,7 @@ SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
     {
       if (const auto entries = entries_of(i); !entries.empty())
         {
-          const auto [least, largest] = std::minmax_element(entries.begin(), entries.end());
+          const auto [least, largest] = std::ranges::minmax_element(entries);
           const std::size_t first = *least / 2 / block_size, last = *largest / 2 / block_size;
           if (first / blocks_in_a_row == last / blocks_in_a_row)
             behind[i] = std::uint32_t(last);
@@ -165,7 +165,7 @@ SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
   constexpr std::uint32_t n_neighbours = 64;
   const auto counts = [&](const std::uint32_t i) {
     const auto entries = entries_of(i);
-    const auto n_as_two = std::count_if(entries.begin(), entries.end(), is_second);
+    const auto n_as_two = std::ranges::count_if(entries, is_second);
     return std::pair(std::size_t(n_as_two), entries.size());
   };
   for (std::size_t block = 0; block <= after_all; ++block)

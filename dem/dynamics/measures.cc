@@ -133,7 +133,7 @@ template <int dim>
 double Dynamics<dim>::faceless_coordination_number() const
 {
   const auto& all = touches.list();
-  const auto n = std::count_if(all.begin(), all.end(), [](const Touch<dim>& touch) { return touch.touching; });
+  const auto n = std::ranges::count_if(all, &Touch<dim>::touching);
   return 2.0 * double(n) / double(images.n_own());
 }
 

@@ -37,12 +37,9 @@ template <int dim>
 bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
 {
   const auto& joints = body.smooth_joints;
-  const auto found =
-    std::lower_bound(joints.begin(), joints.end(), pair,
-                     [](const SmoothJoint<dim>& joint, const GrainPair& wanted) { return joint.ends() < wanted; });
+  const auto found = std::ranges::lower_bound(joints, pair, {}, &SmoothJoint<dim>::ends);
   return (body.groups_are_rigid && body.groups[pair.first] == body.groups[pair.second]) ||
-         (found != joints.end() && found->ends() == pair) ||
-         std::binary_search(body.kept_apart.begin(), body.kept_apart.end(), pair);
+         (found != joints.end() && found->ends() == pair) || std::ranges::binary_search(body.kept_apart, pair);
 }
 } // namespace
 
@@ -50,8 +47,7 @@ bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
 template <int dim>
 auto Touches<dim>::find(const GrainPair& pair) const
 {
-  return std::lower_bound(touches.begin(), touches.end(), pair,
-                          [](const Touch<dim>& touch, const GrainPair& wanted) { return touch.ends() < wanted; });
+  return std::ranges::lower_bound(touches, pair, {}, &Touch<dim>::ends);
 }
 
 template <int dim>

@@ -4,8 +4,6 @@
 #include "dem/laws/pivoting_plate.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 

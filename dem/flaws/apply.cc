@@ -226,9 +226,9 @@ void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_tak
         if (sizes[root] > largest_crumb)
           {
             const Vector<2> where = 1e3 * in_plane<dim>(at<dim>(rest.grains.position, i));
-            throw InputError(fmt::format("leaves a free piece of {} grains, near ({:.3g}, {:.3g}) mm, which nothing "
-                                         "would hold; shorten the shape or leave a bridge",
-                                         sizes[root], where[0], where[1]));
+            throw InputError("leaves a free piece of {} grains, near ({:.3g}, {:.3g}) mm, which nothing "
+                             "would hold; shorten the shape or leave a bridge",
+                             sizes[root], where[0], where[1]);
           }
         stays[i] = false;
       }

@@ -35,8 +35,8 @@ std::vector<unsigned int> mirrored_elements(const std::vector<FaceElement<dim>>&
           sum += std::abs(other.offset[c] - mirrored[c]);
         return sum;
       };
-      const auto found = std::min_element(elements.begin(), elements.end(),
-                                          [&](const auto& one, const auto& other) { return miss(one) < miss(other); });
+      const auto found =
+        std::ranges::min_element(elements, [&](const auto& one, const auto& other) { return miss(one) < miss(other); });
       order.push_back(unsigned(found - elements.begin()));
     }
   return order;
@@ -184,7 +184,7 @@ Specimen<dim> cored(const Specimen<dim>& cell, const BodyShape shape)
     if (is_cut[i])
       has_cut[groups.root(i)] = true;
   const auto sizes = groups.sizes();
-  const auto body = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  const auto body = std::uint32_t(std::ranges::max_element(sizes) - sizes.begin());
   std::vector<bool> stays(n, false);
   std::size_t n_removed = 0;
   for (std::uint32_t i = 0; i < n; ++i)

@@ -14,8 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -240,14 +238,8 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   return cored<dim>(repeated<dim>(specimen, n_cells), wanted.shape);
 }
 
-template Specimen<2> make_specimen<2>(const SpecimenParameters&, const JointParameters&,
-                                      const ParticleContactParameters&, std::uint64_t, const std::function<void()>&,
-                                      const std::function<void()>&);
-template Specimen<3> make_specimen<3>(const SpecimenParameters&, const JointParameters&,
-                                      const ParticleContactParameters&, std::uint64_t, const std::function<void()>&,
-                                      const std::function<void()>&);
-template void install_joints<2>(Specimen<2>&, const JointParameters&, const std::vector<GrainPair>&,
-                                const std::function<void()>&);
-template void install_joints<3>(Specimen<3>&, const JointParameters&, const std::vector<GrainPair>&,
-                                const std::function<void()>&);
+template decltype(make_specimen<2>) make_specimen<2>;
+template decltype(make_specimen<3>) make_specimen<3>;
+template decltype(install_joints<2>) install_joints<2>;
+template decltype(install_joints<3>) install_joints<3>;
 } // namespace feldspar

@@ -16,7 +16,6 @@
 #include <limits>
 #include <numeric>
 #include <set>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -59,7 +58,7 @@ std::vector<PairGap<dim>> pair_gaps(
                       second < n_own ? PeriodicImage<dim>{second, {}} : images[second - n_own], branch});
     }
   check();
-  std::sort(gaps.begin(), gaps.end(), [](const PairGap<dim>& a, const PairGap<dim>& b) {
+  std::ranges::sort(gaps, [](const PairGap<dim>& a, const PairGap<dim>& b) {
     return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
   });
   return gaps;
@@ -72,15 +71,13 @@ std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Paramet
                             const double mean_radius)
 {
   if (!wanted.coordination_number)
-    return std::size_t(std::partition_point(gaps.begin(), gaps.end(),
-                                            [&](const PairGap<dim>& entry) {
-                                              return entry.gap <= *wanted.installation_gap_ratio * mean_radius;
-                                            }) -
-                       gaps.begin());
+    return std::size_t(
+      std::ranges::partition_point(
+        gaps, [&](const PairGap<dim>& entry) { return entry.gap <= *wanted.installation_gap_ratio * mean_radius; }) -
+      gaps.begin());
   const double z = *wanted.coordination_number;
   const auto n_overlapping = std::size_t(
-    std::partition_point(gaps.begin(), gaps.end(), [](const PairGap<dim>& entry) { return entry.gap <= 0.0; }) -
-    gaps.begin());
+    std::ranges::partition_point(gaps, [](const PairGap<dim>& entry) { return entry.gap <= 0.0; }) - gaps.begin());
   const auto n = std::size_t(std::llround(0.5 * z * double(n_grains)));
   if (n < n_overlapping || n > gaps.size())
     throw ParameterError(parameter_id<&Parameters::coordination_number, Parameters>(), fmt::format("{}", z),
@@ -177,7 +174,7 @@ void install_joints(
                                            : n > 0 ? pairs.back().gap / mean_radius
                                                    : 0.0;
 
-  std::sort(pairs.begin(), pairs.end(), [](const PairGap<dim>& a, const PairGap<dim>& b) {
+  std::ranges::sort(pairs, [](const PairGap<dim>& a, const PairGap<dim>& b) {
     return std::tie(a.first, a.second) < std::tie(b.first, b.second);
   });
 
@@ -219,7 +216,7 @@ void install_joints(
   Random(specimen.seed, RandomStream::bonds).shuffle(lot);
   const auto n_gapped = std::size_t(std::llround(wanted.gapped_fraction * double(n)));
   const auto n_slit = std::min(n - n_gapped, std::size_t(std::llround(wanted.slit_fraction * double(n))));
-  std::fill(joints.bonded.begin(), joints.bonded.end(), 1.0);
+  std::ranges::fill(joints.bonded, 1.0);
   for (std::size_t k = 0; k < n_gapped + n_slit; ++k)
     {
       for (unsigned int i = 0; i < joints.n_segments; ++i)

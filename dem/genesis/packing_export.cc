@@ -38,7 +38,7 @@ std::string lammps_data(const Specimen<dim>& specimen)
     fmt::format("LAMMPS data file: a packing of Feldspar, in metres\n\n{} atoms\n{} bonds\n1 atom types\n"
                 "1 bond types\n\n",
                 grains.size(), n_bonds);
-  const double largest_radius = *std::max_element(grains.radius.begin(), grains.radius.end());
+  const double largest_radius = *std::ranges::max_element(grains.radius);
   for (int c = 0; c < 3; ++c)
     fmt::format_to(std::back_inserter(text), "{0} {1} {2}lo {2}hi\n", c < dim ? 0.0 : -largest_radius,
                    c < dim ? specimen.size[c] : largest_radius, "xyz"[c]);

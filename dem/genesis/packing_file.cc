@@ -43,11 +43,11 @@ void check_overlaps(const Grains<dim>& own, const SpecimenParameters& wanted, co
         return;
       const bool across = two >= own.size();
       const auto [first, second] = std::minmax(line_of[one], line_of[across ? images[two - own.size()].owner : two]);
-      throw InputError(fmt::format(
-        "{}:{}: overlaps {} by {:.3g} m{}; allowed are {:.0f} % of the smaller radius, {:.3g} "
-        "m",
-        wanted.packing_file, second, first == second ? "its own image" : fmt::format("the grain of line {}", first),
-        overlap, across ? " across the sides of the periodic box" : "", 100.0 * largest_overlap, allowed));
+      throw InputError("{}:{}: overlaps {} by {:.3g} m{}; allowed are {:.0f} % of the smaller radius, {:.3g} "
+                       "m",
+                       wanted.packing_file, second,
+                       first == second ? "its own image" : fmt::format("the grain of line {}", first), overlap,
+                       across ? " across the sides of the periodic box" : "", 100.0 * largest_overlap, allowed);
     },
     check);
 }
@@ -65,12 +65,11 @@ void check_walls(const Grains<dim>& grains, const SpecimenParameters& wanted, co
       const double allowed = largest_overlap * radius;
       const auto look = [&](const double overlap, const std::string_view wall) {
         if (overlap > allowed)
-          throw InputError(
-            fmt::format("{}:{}: reaches through the {} by {:.3g} m; allowed are {:.0f} % of the radius, {:.3g} "
-                        "m: make {} and {} those of the grains",
-                        wanted.packing_file, line_of[i], wall, overlap, 100.0 * largest_overlap, allowed,
-                        in_words(parameter_id<&SpecimenParameters::width>()),
-                        entry_in_words(parameter_id<&SpecimenParameters::height>())));
+          throw InputError("{}:{}: reaches through the {} by {:.3g} m; allowed are {:.0f} % of the radius, {:.3g} "
+                           "m: make {} and {} those of the grains",
+                           wanted.packing_file, line_of[i], wall, overlap, 100.0 * largest_overlap, allowed,
+                           in_words(parameter_id<&SpecimenParameters::width>()),
+                           entry_in_words(parameter_id<&SpecimenParameters::height>()));
       };
       for (int axis = is_round ? dim - 1 : 0; axis < dim; ++axis)
         {
@@ -107,12 +106,12 @@ std::vector<GrainPair> pairs_of(const std::vector<PackedBond>& bonds, const Grai
         branch -= (size.array() * (branch.array() / size.array()).round()).matrix();
       const double gap = branch.norm() - grains.radius[first] - grains.radius[second];
       if (const double allowed = largest_gap_ratio * grains.mean_radius(); gap > allowed)
-        throw InputError(fmt::format("{}:{}: a bond joins grains with a gap of {:.3g} m; allowed is the mean radius, "
-                                     "{:.3g} m",
-                                     wanted.packing_file, line, gap, allowed));
+        throw InputError("{}:{}: a bond joins grains with a gap of {:.3g} m; allowed is the mean radius, "
+                         "{:.3g} m",
+                         wanted.packing_file, line, gap, allowed);
       pairs.emplace_back(std::minmax(std::uint32_t(first), std::uint32_t(second)));
     }
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
@@ -133,36 +132,36 @@ Packing<dim> read_packing(const SpecimenParameters& wanted, const std::function<
     {
       const std::string where = fmt::format("{}:{}", wanted.packing_file, line);
       if (radius <= 0.0)
-        throw InputError(fmt::format("{}: radius {} m; a radius must be greater than 0", where, radius));
+        throw InputError("{}: radius {} m; a radius must be greater than 0", where, radius);
       for (int c = 0; c < dim; ++c)
         {
           const double length = c == dim - 1 ? wanted.height : wanted.width;
           values[c] += wanted.packing_shift.empty() ? 0.0 : wanted.packing_shift[c];
           const bool is_wrapped = is_periodic(wanted.shape) && std::abs(values[c]) <= most_cells_away * length;
           if (!is_wrapped && (values[c] < 0.0 || values[c] > length))
-            throw InputError(fmt::format("{}: {} = {} m lies outside the specimen; allowed are 0 to {} m; {} and {} "
-                                         "bring grains of another unit or origin there",
-                                         where, "xyz"[c], values[c], length,
-                                         in_words(parameter_id<&SpecimenParameters::packing_unit>()),
-                                         in_words(parameter_id<&SpecimenParameters::packing_shift>())));
+            throw InputError("{}: {} = {} m lies outside the specimen; allowed are 0 to {} m; {} and {} "
+                             "bring grains of another unit or origin there",
+                             where, "xyz"[c], values[c], length,
+                             in_words(parameter_id<&SpecimenParameters::packing_unit>()),
+                             in_words(parameter_id<&SpecimenParameters::packing_shift>()));
           // Before it has an image in each of very many boxes.
           if (const double overlap = 2.0 * radius - length;
               is_periodic(wanted.shape) && overlap > largest_overlap * radius)
-            throw InputError(fmt::format("{}: overlaps its own image by {:.3g} m across the sides of the periodic box; "
-                                         "allowed are {:.0f} % of the radius, {:.3g} m",
-                                         where, overlap, 100.0 * largest_overlap, largest_overlap * radius));
+            throw InputError("{}: overlaps its own image by {:.3g} m across the sides of the periodic box; "
+                             "allowed are {:.0f} % of the radius, {:.3g} m",
+                             where, overlap, 100.0 * largest_overlap, largest_overlap * radius);
           positions[c].push_back(is_wrapped ? wrapped(values[c], length) : values[c]);
         }
       if (wanted.shape == BodyShape::cylinder)
         if (const double r = std::hypot(values[0] - 0.5 * wanted.width, values[1] - 0.5 * wanted.width);
             r > 0.5 * wanted.width)
-          throw InputError(fmt::format("{}: lies {} m from the axis of the cylinder; allowed are 0 to {} m", where, r,
-                                       0.5 * wanted.width));
+          throw InputError("{}: lies {} m from the axis of the cylinder; allowed are 0 to {} m", where, r,
+                           0.5 * wanted.width);
       radii.push_back(radius);
       line_of.push_back(line);
     }
   if (radii.size() < 2)
-    throw InputError(fmt::format("{}: {} grains; a packing has at least two", wanted.packing_file, radii.size()));
+    throw InputError("{}: {} grains; a packing has at least two", wanted.packing_file, radii.size());
 
   Packing<dim> packing;
   packing.grains.place(radii, positions);

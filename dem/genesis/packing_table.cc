@@ -1,5 +1,6 @@
 #include "dem/genesis/packing_table.h"
 
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/csv.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <istream>
 #include <iterator>
@@ -68,11 +68,8 @@ std::string_view without_quotes(const std::string_view word)
 
 std::optional<double> as_number(const std::string_view word)
 {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  const auto value = number_in<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// Reads a file line by line.
@@ -126,11 +123,11 @@ private:
         if (++number % lines_between_checks == 0)
           check();
         if (number == 1 && line.find("LAMMPS") != std::string::npos) // the title of a data file may begin with #
-          std::replace(line.begin(), line.end(), '#', ' ');
+          std::ranges::replace(line, '#', ' ');
         if (constexpr std::string_view format = "#format "; line.starts_with(format)) // the column names of YADE
           {
             line.erase(0, format.size());
-            std::replace(line.begin(), line.end(), '_', ' ');
+            std::ranges::replace(line, '_', ' ');
           }
         if (!with_comments)
           line.erase(std::min(line.find('#'), line.size()));
@@ -148,11 +145,10 @@ private:
     std::string number_with_point(without_quotes(word));
     const std::size_t sign = number_with_point.find_first_of(".,");
     const char its_sign = sign == std::string::npos ? decimal_sign : number_with_point[sign];
-    std::replace(number_with_point.begin(), number_with_point.end(), ',', '.');
+    std::ranges::replace(number_with_point, ',', '.');
     const auto value = as_number(number_with_point);
     if (value && decimal_sign != 0 && its_sign != decimal_sign)
-      throw InputError(
-        fmt::format("{}:{}: {} has another decimal sign than the numbers before it", name, number, in_quotes(word)));
+      throw InputError("{}:{}: {} has another decimal sign than the numbers before it", name, number, in_quotes(word));
     if (value)
       decimal_sign = its_sign;
     return value;
@@ -179,7 +175,7 @@ private:
     const bool has_box = words.size() > 2 && words[1] == "BOX";
     const bool has_atoms = words.size() > 2 && words[1] == "ATOMS";
     if (has_box && words.size() > 3 && words[3] == "xy")
-      throw InputError(fmt::format("{}:{}: a box that is not at right angles is not read", name, number));
+      throw InputError("{}:{}: a box that is not at right angles is not read", name, number);
     if (has_atoms)
       {
         name_columns(all, {words.begin() + 2, words.end()});
@@ -207,7 +203,7 @@ private:
       return;
     if (style.size() == 1 && style.front() == "bpm/sphere")
       all.names = {"id", "molecule", "type", "diameter", "density", "x", "y", "z"};
-    else if (style.front() == "hybrid" && std::ranges::find(style, "sphere") != style.end())
+    else if (style.front() == "hybrid" && contains(style, "sphere"))
       {
         all.names = {"id", "type", "x", "y", "z"};
         for (std::size_t k = 1; k < style.size(); ++k)
@@ -216,15 +212,14 @@ private:
           else if (part == "bond" || part == "angle" || part == "molecular")
             all.names.emplace_back("molecule");
           else
-            throw InputError(fmt::format("{}:{}: a hybrid with {} is not read; it must be of sphere, bond, angle and "
-                                         "molecular",
-                                         name, number, in_quotes(part)));
+            throw InputError("{}:{}: a hybrid with {} is not read; it must be of sphere, bond, angle and "
+                             "molecular",
+                             name, number, in_quotes(part));
       }
     else
-      throw InputError(
-        fmt::format("{}:{}: atoms have the style {}; it must be sphere, bpm/sphere, or hybrid with sphere "
-                    "and its other styles, which have diameters",
-                    name, number, in_quotes(fmt::format("{}", fmt::join(style, " ")))));
+      throw InputError("{}:{}: atoms have the style {}; it must be sphere, bpm/sphere, or hybrid with sphere "
+                       "and its other styles, which have diameters",
+                       name, number, in_quotes(fmt::format("{}", fmt::join(style, " "))));
   }
 
   void read_data(PackingLines& all)
@@ -246,7 +241,7 @@ private:
       else if (section.empty() && words.size() > 3)
         {
           if (words.size() > 5 && words[3] == "xy")
-            throw InputError(fmt::format("{}:{}: a box that is not at right angles is not read", name, number));
+            throw InputError("{}:{}: a box that is not at right angles is not read", name, number);
           for (std::size_t axis = 0; axis < 3; ++axis)
             if (words[2] == std::array{"xlo", "ylo", "zlo"}[axis])
               all.origin[axis] = value_of(words.front()).value_or(0.0);
@@ -289,7 +284,7 @@ std::optional<PackingColumn> column_of(const PackingLines& lines, const std::vec
           }
         catch (const InputError& error)
           {
-            throw InputError(fmt::format("{}:{}: {}", file, lines.line_of_names, error.what()));
+            throw InputError("{}:{}: {}", file, lines.line_of_names, error.what());
           }
       }
   return std::nullopt;
@@ -304,8 +299,8 @@ std::vector<PackingColumn> columns_by_name(const PackingLines& lines, const int 
                                                    {"start_y_m", "y", "y_m", "position_y"},
                                                    {"start_z_m", "z", "z_m", "position_z"}};
   const auto missing = [&](const std::string_view what) {
-    return InputError(fmt::format("{}:{}: there is no column {}; there must be x, y{} and radius or diameter", file,
-                                  lines.line_of_names, what, dim == 3 ? ", z" : ""));
+    return InputError("{}:{}: there is no column {}; there must be x, y{} and radius or diameter", file,
+                      lines.line_of_names, what, dim == 3 ? ", z" : "");
   };
   for (int axis = 0; axis < dim; ++axis)
     if (const auto column = column_of(lines, of_axis[axis], unit, file))
@@ -351,10 +346,9 @@ std::vector<PackingColumn> columns_by_order(const std::vector<NumberedLine>& row
       has_height = true;
     }
   else if (n != n_wanted)
-    throw InputError(
-      fmt::format("{}:{}: {} numbers found; a line is {}, in metres, perhaps after the number of the grain{}", file,
-                  rows.front().line, n, dim == 2 ? "x y radius" : "x y z radius",
-                  dim == 2 ? ", and with one z for all before the radius" : ""));
+    throw InputError("{}:{}: {} numbers found; a line is {}, in metres, perhaps after the number of the grain{}", file,
+                     rows.front().line, n, dim == 2 ? "x y radius" : "x y z radius",
+                     dim == 2 ? ", and with one z for all before the radius" : "");
   std::vector<PackingColumn> columns;
   columns.reserve(n_wanted);
   for (int axis = 0; axis < dim; ++axis)
@@ -379,14 +373,14 @@ std::vector<PackedBond> bonds_of(const PackingLines& lines, const std::string& f
                              ? place_of.end()
                              : place_of.find(bond.values[column]);
         if (found == place_of.end())
-          throw InputError(fmt::format("{}:{}: a bond is a line of its number, its type, and the numbers of two atoms "
-                                       "of the file",
-                                       file, line));
+          throw InputError("{}:{}: a bond is a line of its number, its type, and the numbers of two atoms "
+                           "of the file",
+                           file, line);
         return found->second;
       };
       bonds.push_back({line, grain(2), grain(3)});
       if (bonds.back().first == bonds.back().second)
-        throw InputError(fmt::format("{}:{}: a bond joins an atom to itself", file, line));
+        throw InputError("{}:{}: a bond joins an atom to itself", file, line);
     }
   return bonds;
 }
@@ -407,15 +401,15 @@ PackingTable read_packing_table(const std::filesystem::path& path, const int dim
     {
       const std::size_t n_values = lines.names.empty() ? lines.rows.front().values.size() : lines.names.size();
       if (values.size() < n_values || (!lines.may_have_more && values.size() > n_values))
-        throw InputError(fmt::format("{}:{}: {} numbers found; there must be {}, as in the lines before", file, line,
-                                     values.size(), n_values));
+        throw InputError("{}:{}: {} numbers found; there must be {}, as in the lines before", file, line, values.size(),
+                         n_values);
       PackedGrain grain{line, {}, 0.0};
       for (std::size_t c = 0; c < columns.size(); ++c)
         {
           const double value = columns[c].unit * values[columns[c].place];
           if (!std::isfinite(value))
-            throw InputError(fmt::format("{}:{}: {} is not a number", file, line,
-                                         c + 1 == columns.size() ? "the radius" : std::string(1, "xyz"[c])));
+            throw InputError("{}:{}: {} is not a number", file, line,
+                             c + 1 == columns.size() ? "the radius" : std::string(1, "xyz"[c]));
           if (c + 1 == columns.size())
             grain.radius = value;
           else

@@ -143,7 +143,7 @@ Descent<dim>::Descent(const Specimen<dim>& loose, const std::function<void()>& c
         20.0 * radius * radius * touch_stiffness<dim>(loose.particle_contact.modulus, radius, radius, loose.thickness);
     }
   mean_radius = all.mean_radius();
-  largest_radius = *std::max_element(all.radius.begin(), all.radius.end());
+  largest_radius = *std::ranges::max_element(all.radius);
   skin = 0.2 * mean_radius;
   find_neighbours();
 }
@@ -375,7 +375,7 @@ void Descent<dim>::advance(const double time_step, const double keep, const doub
                                    -most_growth / time_step, most_growth / time_step);
       growth += time_step * growth_velocity;
     }
-  const double way = std::sqrt(*std::max_element(of_block.begin(), of_block.end()));
+  const double way = std::sqrt(*std::ranges::max_element(of_block));
   const double grown = std::max(0.0, largest_radius * (std::exp(growth) - std::exp(growth_at_search)));
   if (2.0 * (way + grown) > skin)
     find_neighbours();
@@ -474,8 +474,6 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
   return packing;
 }
 
-template StaticPacking pack_by_descent<2>(Specimen<2>&, double, const std::function<void()>&,
-                                          const std::function<void()>&);
-template StaticPacking pack_by_descent<3>(Specimen<3>&, double, const std::function<void()>&,
-                                          const std::function<void()>&);
+template decltype(pack_by_descent<2>) pack_by_descent<2>;
+template decltype(pack_by_descent<3>) pack_by_descent<3>;
 } // namespace feldspar

@@ -81,9 +81,7 @@ std::optional<Tensor<dim>> moment_of(const Dynamics<dim>& dynamics, const Segmen
   if (broken.on_smooth_joint)
     {
       const GrainPair ends(broken.grain_1, broken.grain_2);
-      const auto joint =
-        std::lower_bound(body.smooth_joints.begin(), body.smooth_joints.end(), ends,
-                         [](const SmoothJoint<dim>& one, const GrainPair& wanted) { return one.ends() < wanted; });
+      const auto joint = std::ranges::lower_bound(body.smooth_joints, ends, {}, &SmoothJoint<dim>::ends);
       if (joint == body.smooth_joints.end() || joint->number != broken.joint)
         return std::nullopt;
       force = lost_force(*joint);
@@ -138,7 +136,7 @@ template <int dim>
 typename EmissionWatch<dim>::Source& EmissionWatch<dim>::source_at(const Vector<dim>& place, const double time)
 {
   const auto is_near = [&](const Source& source) { return (place - source.centre).norm() <= source.radius; };
-  const auto first = std::find_if(sources.begin(), sources.end(), is_near);
+  const auto first = std::ranges::find_if(sources, is_near);
   if (first == sources.end())
     {
       const std::uint64_t event = events.size();

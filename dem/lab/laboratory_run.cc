@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -418,7 +417,7 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
     return position;
   };
   const auto& shots = result.appearance.snapshots;
-  const auto loaded = std::max_element(shots.begin(), shots.end(), [](const Snapshot& one, const Snapshot& other) {
+  const auto loaded = std::ranges::max_element(shots, [](const Snapshot& one, const Snapshot& other) {
     return std::abs(one.axial_stress) < std::abs(other.axial_stress);
   });
   const auto mean_stress_of = [&](const std::size_t i) {

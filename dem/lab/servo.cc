@@ -1,7 +1,5 @@
 #include "dem/lab/servo.h"
 
-#include "base/parameter_id.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

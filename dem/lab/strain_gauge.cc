@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 
-#include <cmath>
 #include <limits>
 
 namespace feldspar

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 namespace feldspar
 {
@@ -23,8 +22,7 @@ std::vector<std::uint32_t> numbers_by_size(DisjointSets sets, const std::size_t 
   const std::vector<std::uint32_t> n_members = sets.sizes();
   std::vector<std::uint32_t> by_size(n_grains);
   std::iota(by_size.begin(), by_size.end(), 0u);
-  std::stable_sort(by_size.begin(), by_size.end(),
-                   [&](const auto a, const auto b) { return n_members[a] > n_members[b]; });
+  std::ranges::stable_sort(by_size, [&](const auto a, const auto b) { return n_members[a] > n_members[b]; });
   std::vector<std::uint32_t> rank(n_grains);
   for (std::uint32_t k = 0; k < n_grains; ++k)
     rank[by_size[k]] = k;

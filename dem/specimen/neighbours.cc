@@ -28,7 +28,7 @@ struct CellGrid
     Vector<dim> top;
     for (int c = 0; c < dim; ++c)
       {
-        const auto [low, high] = std::minmax_element(all.position[c].begin(), all.position[c].end());
+        const auto [low, high] = std::ranges::minmax_element(all.position[c]);
         corner[c] = *low;
         top[c] = *high;
       }
@@ -106,7 +106,7 @@ void visit_pairs(const Grains<dim>& grains, const double largest_gap, Visitor&& 
   constexpr std::size_t grains_between_checks = 10000; // some milliseconds
   if (grains.size() < 2)
     return;
-  const double largest_radius = *std::max_element(grains.radius.begin(), grains.radius.end());
+  const double largest_radius = *std::ranges::max_element(grains.radius);
   const CellGrid<dim> grid(grains, 2.0 * largest_radius + largest_gap);
   std::vector<std::uint32_t> partners;
   for (std::size_t i = 0; i < grains.size(); ++i)
@@ -124,7 +124,7 @@ void visit_pairs(const Grains<dim>& grains, const double largest_gap, Visitor&& 
               partners.push_back(other);
           }
       });
-      std::sort(partners.begin(), partners.end());
+      std::ranges::sort(partners);
       for (const std::uint32_t other : partners)
         visit(GrainPair(std::uint32_t(i), other));
     }
@@ -154,7 +154,7 @@ std::vector<std::uint32_t> spatial_order(const Grains<dim>& grains)
   const double cell_size = 4.0 * grains.mean_radius();
   Vector<dim> corner;
   for (int c = 0; c < dim; ++c)
-    corner[c] = *std::min_element(grains.position[c].begin(), grains.position[c].end());
+    corner[c] = *std::ranges::min_element(grains.position[c]);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> key(grains.size());
   constexpr int n_bits = 63 / dim;
   for (std::size_t i = 0; i < grains.size(); ++i)
@@ -168,18 +168,16 @@ std::vector<std::uint32_t> spatial_order(const Grains<dim>& grains)
         }
       key[i] = {code, std::uint32_t(i)};
     }
-  std::sort(key.begin(), key.end());
+  std::ranges::sort(key);
   std::vector<std::uint32_t> order(grains.size());
-  std::transform(key.begin(), key.end(), order.begin(), [](const auto& entry) { return entry.second; });
+  std::ranges::transform(key, order.begin(), [](const auto& entry) { return entry.second; });
   return order;
 }
 
-template std::vector<GrainPair> pairs_within<2>(const Grains<2>&, double, const std::function<void()>&);
-template std::vector<GrainPair> pairs_within<3>(const Grains<3>&, double, const std::function<void()>&);
-template void for_each_pair_within<2>(const Grains<2>&, double, const std::function<void(const GrainPair&)>&,
-                                      const std::function<void()>&);
-template void for_each_pair_within<3>(const Grains<3>&, double, const std::function<void(const GrainPair&)>&,
-                                      const std::function<void()>&);
-template std::vector<std::uint32_t> spatial_order<2>(const Grains<2>&);
-template std::vector<std::uint32_t> spatial_order<3>(const Grains<3>&);
+template decltype(pairs_within<2>) pairs_within<2>;
+template decltype(pairs_within<3>) pairs_within<3>;
+template decltype(for_each_pair_within<2>) for_each_pair_within<2>;
+template decltype(for_each_pair_within<3>) for_each_pair_within<3>;
+template decltype(spatial_order<2>) spatial_order<2>;
+template decltype(spatial_order<3>) spatial_order<3>;
 } // namespace feldspar

@@ -25,7 +25,7 @@ std::vector<PeriodicImage<dim>> images_within(const Grains<dim>& grains, const T
       low = low.cwiseMin(place.back());
       high = high.cwiseMax(place.back());
     }
-  const double largest_radius = *std::max_element(grains.radius.begin(), grains.radius.end());
+  const double largest_radius = *std::ranges::max_element(grains.radius);
   for (std::uint32_t i = 0; i < grains.size(); ++i)
     {
       const Vector<dim> margin = (grains.radius[i] + largest_radius + reach) * width;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace feldspar
@@ -17,7 +16,7 @@ BodyCentres<dim>::BodyCentres(const Specimen<dim>& specimen, const Components<di
     return;
   const auto& group = specimen.groups;
   const auto& mass = specimen.grains.mass;
-  const std::size_t n_groups = std::size_t(*std::max_element(group.begin(), group.end())) + 1;
+  const std::size_t n_groups = std::size_t(*std::ranges::max_element(group)) + 1;
   std::vector<double> sum(n_groups, 0.0);
   Components<dim> moment;
   resize<dim>(moment, n_groups);
@@ -43,7 +42,7 @@ RigidGroups<dim>::RigidGroups(const Specimen<dim>& specimen)
     throw std::logic_error("rigid groups are of the plane");
   const auto& grains = specimen.grains;
   of = specimen.groups;
-  const std::size_t n_groups = std::size_t(*std::max_element(of.begin(), of.end())) + 1;
+  const std::size_t n_groups = std::size_t(*std::ranges::max_element(of)) + 1;
   first.assign(n_groups + 1, 0);
   for (const auto group : of)
     ++first[group + 1];

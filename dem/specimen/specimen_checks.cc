@@ -26,7 +26,7 @@ bool lies(const double value, const double low, const double high) { return valu
 template <typename Values>
 bool all_lie(const Values& values, const double low, const double high)
 {
-  return std::all_of(values.begin(), values.end(), [=](const double value) { return lies(value, low, high); });
+  return std::ranges::all_of(values, [=](const double value) { return lies(value, low, high); });
 }
 
 constexpr double smallest = std::numeric_limits<double>::min();

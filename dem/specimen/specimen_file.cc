@@ -1,6 +1,7 @@
 #include "dem/specimen/specimen_file.h"
 
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/parameter_id.h"
 #include "base/quoted.h"
 #include "base/system/hdf5_archive.h"
@@ -37,7 +38,7 @@ void transfer_law(Archive& archive, Joints<dim>& joints)
   archive.text("law", name);
   const auto law = JointLaws::named<dim>(name);
   if (!law)
-    throw InputError(fmt::format("joints of the law {}, which this program does not have", in_quotes(name)));
+    throw InputError("joints of the law {}, which this program does not have", in_quotes(name));
   if constexpr (Archive::reads)
     joints.law = *law;
   std::visit(
@@ -79,9 +80,7 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
       one.value("n_joints", flaw.n_joints);
       for (int c = 0; c < dim; ++c)
         {
-          std::vector<double> along;
-          for (const auto& point : flaw.outline)
-            along.push_back(point[c]);
+          auto along = mapped<double>(flaw.outline, [&](const auto& point) { return point[c]; });
           one.array(fmt::format("outline_{}_m", "xyz"[c]), along);
           if (c > 0 && along.size() != flaw.outline.size())
             throw InputError("the outline of a flaw is incomplete");
@@ -108,11 +107,11 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
   auto& joints = specimen.smooth_joints;
   // A column of all of them, one number each.
   const auto pass = [&](const std::string& name, const auto& part) {
-    using Number = std::remove_cvref_t<decltype(part(std::declval<SmoothJoint<dim>&>()))>;
+    using Number = std::remove_cvref_t<decltype(std::invoke(part, std::declval<SmoothJoint<dim>&>()))>;
     std::vector<std::conditional_t<std::is_floating_point_v<Number>, double, std::uint32_t>> column;
     column.reserve(joints.size());
     for (auto& joint : joints)
-      column.push_back(part(joint));
+      column.push_back(std::invoke(part, joint));
     archive.array(name, column);
     if constexpr (Archive::reads)
       {
@@ -121,19 +120,24 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
         if (joints.size() != column.size())
           throw InputError("smooth joints are incomplete");
         for (std::size_t k = 0; k < joints.size(); ++k)
-          part(joints[k]) = Number(column[k]);
+          std::invoke(part, joints[k]) = Number(column[k]);
       }
   };
-  pass(
-    "grain_1", [](auto& joint) -> auto& { return joint.grain_1; });
-  pass(
-    "grain_2", [](auto& joint) -> auto& { return joint.grain_2; });
-  pass(
-    "number", [](auto& joint) -> auto& { return joint.number; });
-  pass(
-    "area_m2", [](auto& joint) -> auto& { return joint.area; });
-  pass(
-    "half_radius_difference_m", [](auto& joint) -> auto& { return joint.half_radius_difference; });
+  using Joint = SmoothJoint<dim>;
+  const auto of_face = [](const auto part) {
+    return [=](auto& joint) -> auto& { return joint.face.*part; };
+  };
+  const auto of_bond = [](const auto part) {
+    return [=](auto& joint) -> auto& { return joint.face.bond.*part; };
+  };
+  const auto of_state = [](const auto part) {
+    return [=](auto& joint) -> auto& { return joint.state.*part; };
+  };
+  pass("grain_1", &Joint::grain_1);
+  pass("grain_2", &Joint::grain_2);
+  pass("number", &Joint::number);
+  pass("area_m2", &Joint::area);
+  pass("half_radius_difference_m", &Joint::half_radius_difference);
   for (int c = 0; c < dim; ++c)
     {
       pass(
@@ -141,24 +145,15 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
       pass(
         fmt::format("branch_{}_m", "xyz"[c]), [c](auto& joint) -> auto& { return joint.branch[c]; });
     }
-  pass(
-    "normal_stiffness_Pa_per_m", [](auto& joint) -> auto& { return joint.face.normal_stiffness; });
-  pass(
-    "shear_stiffness_Pa_per_m", [](auto& joint) -> auto& { return joint.face.shear_stiffness; });
-  pass(
-    "friction", [](auto& joint) -> auto& { return joint.face.friction; });
-  pass(
-    "dilation_slope", [](auto& joint) -> auto& { return joint.face.dilation_slope; });
-  pass(
-    "tensile_strength_Pa", [](auto& joint) -> auto& { return joint.face.bond.tensile_strength; });
-  pass(
-    "cohesion_Pa", [](auto& joint) -> auto& { return joint.face.bond.cohesion; });
-  pass(
-    "friction_slope", [](auto& joint) -> auto& { return joint.face.bond.friction_slope; });
-  pass(
-    "gap_m", [](auto& joint) -> auto& { return joint.state.gap; });
-  pass(
-    "bonded", [](auto& joint) -> auto& { return joint.state.bonded; });
+  pass("normal_stiffness_Pa_per_m", of_face(&smooth_joint::Face::normal_stiffness));
+  pass("shear_stiffness_Pa_per_m", of_face(&smooth_joint::Face::shear_stiffness));
+  pass("friction", of_face(&smooth_joint::Face::friction));
+  pass("dilation_slope", of_face(&smooth_joint::Face::dilation_slope));
+  pass("tensile_strength_Pa", of_bond(&Bond<double>::tensile_strength));
+  pass("cohesion_Pa", of_bond(&Bond<double>::cohesion));
+  pass("friction_slope", of_bond(&Bond<double>::friction_slope));
+  pass("gap_m", of_state(&smooth_joint::State<dim>::gap));
+  pass("bonded", of_state(&smooth_joint::State<dim>::bonded));
 
   std::vector<std::uint32_t> ends;
   for (const auto& [one, two] : specimen.kept_apart)
@@ -337,9 +332,9 @@ Specimen<dim> read_specimen(const std::filesystem::path& file, const std::functi
     if (format != format_name)
       throw InputError("another kind of file");
     if (version != schema_version)
-      throw InputError(fmt::format("a specimen of layout {}, this program reads layout {}", version, schema_version));
+      throw InputError("a specimen of layout {}, this program reads layout {}", version, schema_version);
     if (dimension != dim)
-      throw InputError(fmt::format("a specimen in {} dimensions, the input asks for {}", dimension, dim));
+      throw InputError("a specimen in {} dimensions, the input asks for {}", dimension, dim);
     transfer(root, specimen);
     check_specimen(specimen);
   };
@@ -366,10 +361,8 @@ unsigned int dimension_of_specimen(const std::filesystem::path& file, const std:
   return dimension;
 }
 
-template void write_specimen<2>(const Specimen<2>&, const std::filesystem::path&,
-                                const std::function<void(Hdf5Writer&)>&);
-template Specimen<2> read_specimen<2>(const std::filesystem::path&, const std::function<void()>&);
-template void write_specimen<3>(const Specimen<3>&, const std::filesystem::path&,
-                                const std::function<void(Hdf5Writer&)>&);
-template Specimen<3> read_specimen<3>(const std::filesystem::path&, const std::function<void()>&);
+template decltype(write_specimen<2>) write_specimen<2>;
+template decltype(read_specimen<2>) read_specimen<2>;
+template decltype(write_specimen<3>) write_specimen<3>;
+template decltype(read_specimen<3>) read_specimen<3>;
 } // namespace feldspar

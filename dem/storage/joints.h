@@ -257,7 +257,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     for (auto* values : {&grain_1, &grain_2, &number})
       {
         const std::vector<std::uint32_t> before = *values;
-        std::transform(order.begin(), order.end(), values->begin(), [&](const std::size_t j) { return before[j]; });
+        std::ranges::transform(order, values->begin(), [&](const std::size_t j) { return before[j]; });
       }
   }
 

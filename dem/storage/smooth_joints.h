@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <numbers>
 #include <type_traits>
 #include <utility>
 

@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>

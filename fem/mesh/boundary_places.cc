@@ -80,7 +80,7 @@ public:
   void check() const
   {
     for (const std::string& name : names)
-      if (std::none_of(sides.begin(), sides.end(), [&](const auto& side) { return is_of(side, name); }))
+      if (std::ranges::none_of(sides, [&](const auto& side) { return is_of(side, name); }))
         throw MeshError(fmt::format("no outer side of a cell belongs to {}", name));
     check_order("bottom", "top", axis, "lies below bottom", "{0} counts upwards, so mirror a depth ({0} -> -{0})");
     if (in_r_z)
@@ -162,8 +162,8 @@ private:
     // A side of a small cell may lie near an end with all of its corners and face elsewhere.
     constexpr double half_way = 0.5;
     const auto lies_at = [&](const double place, const auto& measure) {
-      return std::all_of(side.corners.begin(), side.corners.end(),
-                         [&](const Point<dim>& corner) { return std::abs(measure(corner) - place) <= tolerance; });
+      return std::ranges::all_of(
+        side.corners, [&](const Point<dim>& corner) { return std::abs(measure(corner) - place) <= tolerance; });
     };
     const auto height = [](const Point<dim>& corner) { return corner[axis]; };
     if (side.normal[axis] < -half_way && lies_at(box.lower_bound(axis), height))

@@ -78,14 +78,14 @@ void open_with_gmsh(const std::filesystem::path& file)
       problem = error.what();
     }
   if (problem.find(name) == std::string::npos)
-    throw InputError(fmt::format("is damaged; Gmsh says: {}", excerpt(problem)));
+    throw InputError("is damaged; Gmsh says: {}", excerpt(problem));
   throw InputError("is damaged, or its format is none that Gmsh reads");
 }
 
 template <typename Nodes>
 Nodes sorted(Nodes nodes)
 {
-  std::sort(nodes.begin(), nodes.end());
+  std::ranges::sort(nodes);
   return nodes;
 }
 
@@ -106,20 +106,20 @@ public:
     for (const auto& [entity_dimension, entity] : entities)
       take_elements(entity_dimension, entity);
     if (cells.empty())
-      throw InputError(fmt::format("has no {}", wanted));
+      throw InputError("has no {}", wanted);
     if (has_simplices)
-      throw InputError(fmt::format("has cells that are not {}; in Gmsh recombine the mesh", wanted));
+      throw InputError("has cells that are not {}; in Gmsh recombine the mesh", wanted);
     for (auto* const elements : {&cells, &sides})
-      std::sort(elements->begin(), elements->end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+      std::ranges::sort(*elements, [](const auto& a, const auto& b) { return a.number < b.number; });
     check_sides();
     for (const Element& cell : cells)
       {
-        std::copy(cell.nodes.begin(), cell.nodes.end(), result.cells.emplace_back().nodes.begin());
+        std::ranges::copy(cell.nodes, result.cells.emplace_back().nodes.begin());
         result.cells.back().group = std::uint32_t(cell.group);
       }
     for (const Element& side : sides)
       {
-        std::copy(side.nodes.begin(), side.nodes.end(), result.sides.emplace_back().nodes.begin());
+        std::ranges::copy(side.nodes, result.sides.emplace_back().nodes.begin());
         result.sides.back().group = std::uint32_t(side.group);
       }
     result.groups = groups_of(dimension - 1);
@@ -145,16 +145,14 @@ private:
     std::vector<std::size_t> order(in_file.size());
     for (std::size_t k = 0; k < order.size(); ++k)
       order[k] = k;
-    std::sort(order.begin(), order.end(),
-              [&](const std::size_t a, const std::size_t b) { return in_file[a] < in_file[b]; });
+    std::ranges::sort(order, [&](const std::size_t a, const std::size_t b) { return in_file[a] < in_file[b]; });
     for (const std::size_t k : order)
       {
         const std::array<double, 3> place{coordinates[3 * k], coordinates[3 * k + 1], coordinates[3 * k + 2]};
         constexpr double largest = 1e9; // [m]
         for (const double coordinate : place)
           if (!(std::abs(coordinate) <= largest))
-            throw InputError(
-              fmt::format("node {}: a coordinate in metres is expected instead of {:g}", in_file[k], coordinate));
+            throw InputError("node {}: a coordinate in metres is expected instead of {:g}", in_file[k], coordinate);
         places.emplace(in_file[k], std::uint32_t(result.nodes.size()));
         numbers.push_back(in_file[k]);
         result.nodes.push_back(place);
@@ -175,9 +173,9 @@ private:
                                     : type == tetrahedron || type == hexahedron ? 3
                                                                                 : std::numeric_limits<int>::max();
         if (least_dimension > dimension)
-          throw InputError(fmt::format("elements of Gmsh's type {}; {} can be read", type,
-                                       dimension == 2 ? "points, lines and quadrilaterals"
-                                                      : "points, lines, quadrilaterals and hexahedra"));
+          throw InputError("elements of Gmsh's type {}; {} can be read", type,
+                           dimension == 2 ? "points, lines and quadrilaterals"
+                                          : "points, lines, quadrilaterals and hexahedra");
         if (least_dimension < dimension - 1)
           continue;
         const bool is_cell = least_dimension == dimension;
@@ -190,8 +188,8 @@ private:
             for (std::size_t n = 0; n < n_nodes; ++n)
               element.nodes.push_back(places.at(nodes[t][k * n_nodes + n]));
             const auto in_order = sorted(element.nodes);
-            if (std::adjacent_find(in_order.begin(), in_order.end()) != in_order.end())
-              throw InputError(fmt::format("element {} has one node twice", element.number));
+            if (std::ranges::adjacent_find(in_order) != in_order.end())
+              throw InputError("element {} has one node twice", element.number);
             (is_cell ? cells : sides).push_back(std::move(element));
           }
       }
@@ -205,15 +203,15 @@ private:
     if (groups.size() > 1 && entity_dimension == dimension)
       return int(GmshMesh::several_groups);
     if (groups.size() > 1)
-      throw InputError(fmt::format("{} {} is in the physical groups {} and {}; a part of the boundary has one",
-                                   entity_dimension == 1 ? "curve" : "surface", entity, groups[0], groups[1]));
+      throw InputError("{} {} is in the physical groups {} and {}; a part of the boundary has one",
+                       entity_dimension == 1 ? "curve" : "surface", entity, groups[0], groups[1]);
     return groups.empty() ? 0 : groups[0];
   }
 
   /// The nodes around a side, begun at the least and gone on towards the lesser neighbour: the same however it is listed.
   static std::vector<std::uint32_t> as_cycle(std::vector<std::uint32_t> nodes)
   {
-    std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
+    std::rotate(nodes.begin(), std::ranges::min_element(nodes), nodes.end());
     if (nodes.size() > 2 && nodes.back() < nodes[1])
       std::reverse(nodes.begin() + 1, nodes.end());
     return nodes;
@@ -247,17 +245,16 @@ private:
           const auto cycle = as_cycle(side);
           Found& found = by_nodes.try_emplace(sorted(side), Found{cycle, 0}).first->second;
           if (++found.n_cells > 2 || found.cycle != cycle)
-            throw InputError(fmt::format("more than two cells meet at the nodes {} and {}, or they do not fit together",
-                                         number_of(cycle[0]), number_of(cycle[1])));
+            throw InputError("more than two cells meet at the nodes {} and {}, or they do not fit together",
+                             number_of(cycle[0]), number_of(cycle[1]));
         }
     std::erase_if(sides, [&](const Element& side) {
       const auto cycle = as_cycle(side.nodes);
       const auto found = by_nodes.find(sorted(cycle));
       if (found == by_nodes.end() || found->second.cycle != cycle)
-        throw InputError(
-          fmt::format("element {} on the nodes {} and {}{} is not the side of a cell", side.number, number_of(cycle[0]),
-                      number_of(cycle[1]),
-                      side.group == 0 ? "" : ", of the group " + excerpt(name_of(dimension - 1, side.group)) + ","));
+        throw InputError("element {} on the nodes {} and {}{} is not the side of a cell", side.number,
+                         number_of(cycle[0]), number_of(cycle[1]),
+                         side.group == 0 ? "" : ", of the group " + excerpt(name_of(dimension - 1, side.group)) + ",");
       return found->second.n_cells == 2;
     });
   }

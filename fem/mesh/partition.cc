@@ -1,5 +1,7 @@
 #include "fem/mesh/partition.h"
 
+#include "base/mapped.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -16,9 +18,8 @@ std::vector<unsigned int> weights_below(const double largest_share, const std::v
   constexpr double least_share_of_mean = 1e-3;
   const auto n = double(seconds.size());
   const double mean = std::accumulate(seconds.begin(), seconds.end(), 0.0) / n;
-  std::vector<double> weights;
-  for (const double time : seconds)
-    weights.push_back(mean > 0.0 ? time / mean + least_share_of_mean : 1.0);
+  auto weights =
+    mapped<double>(seconds, [&](const double time) { return mean > 0.0 ? time / mean + least_share_of_mean : 1.0; });
 
   // Each cut of a weight lowers the share of a rank, so that more may have to be cut off.
   double sum = 0.0;
@@ -29,16 +30,14 @@ std::vector<unsigned int> weights_below(const double largest_share, const std::v
         weight = std::min(weight, largest_share * sum / double(n_ranks));
     }
   constexpr double whole = 1 << 30;
-  std::vector<unsigned int> result;
-  for (const double weight : weights)
-    result.push_back(std::max(1u, static_cast<unsigned int>(weight / sum * whole)));
-  return result;
+  return mapped<unsigned int>(
+    weights, [&](const double weight) { return std::max(1u, static_cast<unsigned int>(weight / sum * whole)); });
 }
 
 bool leaves_a_rank_without_cell(const std::vector<unsigned int>& weights, const std::size_t n_ranks)
 {
   const auto cuts = partition_cuts(weights, n_ranks);
-  return std::adjacent_find(cuts.begin(), cuts.end()) != cuts.end();
+  return std::ranges::adjacent_find(cuts) != cuts.end();
 }
 } // namespace
 

@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace feldspar::fem
 {

@@ -5,7 +5,6 @@
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 
-#include <string>
 #include <vector>
 
 /// The weak form of equilibrium and its derivative by the displacement; docs/theory.md §8.1.

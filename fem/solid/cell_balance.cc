@@ -24,8 +24,8 @@ void CellBalance<dim>::place(const Discretisation<dim>& elements)
       places.emplace_back(trees[cell->id().get_coarse_cell_id()], number_of(cell));
   along_curve.resize(places.size());
   std::iota(along_curve.begin(), along_curve.end(), std::size_t(0));
-  std::sort(along_curve.begin(), along_curve.end(),
-            [&](const std::size_t one, const std::size_t other) { return places[one] < places[other]; });
+  std::ranges::sort(along_curve,
+                    [&](const std::size_t one, const std::size_t other) { return places[one] < places[other]; });
   // The ranks' pieces follow each other.
   const unsigned int rank = Utilities::MPI::this_mpi_process(elements.communicator());
   std::vector<std::size_t> n_of_ranks(Utilities::MPI::n_mpi_processes(elements.communicator()));
@@ -39,8 +39,8 @@ void CellBalance<dim>::place(const Discretisation<dim>& elements)
   rank_at_first.resize(places.size());
   const std::size_t begin = cuts[rank];
   for (std::size_t k = 0; k < along_curve.size(); ++k)
-    rank_at_first[along_curve[k]] = static_cast<unsigned int>(
-      std::upper_bound(cuts_at_first.begin(), cuts_at_first.end(), begin + k) - cuts_at_first.begin() - 1);
+    rank_at_first[along_curve[k]] =
+      static_cast<unsigned int>(std::ranges::upper_bound(cuts_at_first, begin + k) - cuts_at_first.begin() - 1);
   seconds_noted.assign(places.size(), 0.0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/mapped.h"
 #include "base/parallel.h"
 #include "fem/materials/material.h"
 
@@ -7,7 +8,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -74,10 +74,7 @@ public:
   /// The state of each point, as it gave it.
   std::vector<std::string> stored() const
   {
-    std::vector<std::string> all;
-    for (const auto& point : points)
-      all.push_back(point->stored());
-    return all;
+    return mapped<std::string>(points, [&](const auto& point) { return point->stored(); });
   }
 
   void restore(const std::vector<std::string>& stored)

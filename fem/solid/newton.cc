@@ -199,7 +199,7 @@ std::optional<std::uint64_t> NewtonSearch<dim, material_dim>::relax_points()
 template <int dim, int material_dim>
 bool NewtonSearch<dim, material_dim>::tangents_are_symmetric() const
 {
-  const bool symmetric = std::all_of(tried.responses.begin(), tried.responses.end(), [](const auto& response) {
+  const bool symmetric = std::ranges::all_of(tried.responses, [](const auto& response) {
     constexpr double round_off = 1e-10;
     const auto& C = response.tangent;
     return (C - C.transpose()).cwiseAbs().maxCoeff() <= round_off * C.cwiseAbs().maxCoeff();

@@ -11,7 +11,6 @@
 
 #include <map>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace feldspar::fem

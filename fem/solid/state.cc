@@ -26,7 +26,7 @@ std::vector<double> side_normal(const Discretisation<dim>& elements, const Cell&
         return boundary.second == cell->face(face)->boundary_id() &&
                (boundary.first == "bottom" || boundary.first == "top" || boundary.first == "axis");
       };
-      if (!cell->face(face)->at_boundary() || std::any_of(boundaries.begin(), boundaries.end(), is_no_side))
+      if (!cell->face(face)->at_boundary() || std::ranges::any_of(boundaries, is_no_side))
         continue;
       values.reinit(cell, face);
       const Tensor<1, dim>& normal = values.normal_vector(0);

@@ -44,8 +44,7 @@ template <int dim>
 std::vector<StoredCell> brought_home(const Discretisation<dim>& elements, const std::vector<StoredCell>& cells)
 {
   const std::uint64_t n_cells = elements.n_cells();
-  const bool known =
-    std::all_of(cells.begin(), cells.end(), [=](const StoredCell& cell) { return cell.number < n_cells; });
+  const bool known = std::ranges::all_of(cells, [=](const StoredCell& cell) { return cell.number < n_cells; });
   if (Utilities::MPI::min(int(known), elements.communicator()) == 0)
     throw std::invalid_argument("the state of another mesh");
   IndexSet at_home(n_cells);

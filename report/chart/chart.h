@@ -100,7 +100,7 @@ struct Chart
 
   bool empty() const
   {
-    return std::all_of(series.begin(), series.end(), [](const ChartSeries& one) { return one.points.empty(); });
+    return std::ranges::all_of(series, [](const ChartSeries& one) { return one.points.empty(); });
   }
 };
 } // namespace feldspar

@@ -62,8 +62,8 @@ std::pair<int, int> size_of_key(const Chart& chart)
       {
         ++n;
         // Bytes that go on with a character of UTF-8 begin with the bits 10.
-        longest = std::max(longest, int(std::count_if(series.label.begin(), series.label.end(),
-                                                      [](const char c) { return (c & 0xC0) != 0x80; })));
+        longest =
+          std::max(longest, int(std::ranges::count_if(series.label, [](const char c) { return (c & 0xC0) != 0x80; })));
       }
   return {n, longest};
 }

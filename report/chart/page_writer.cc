@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace feldspar::live
@@ -60,7 +59,7 @@ void add_lines(Json& lines, const ChartSeries& series)
 
 std::string chart_data(const Chart& chart)
 {
-  if (chart.empty() || !std::all_of(chart.series.begin(), chart.series.end(), is_drawn))
+  if (chart.empty() || !std::ranges::all_of(chart.series, is_drawn))
     return "";
   const auto& [from_x, to_x] = std::pair(chart.x.from, chart.x.to);
   const auto& [from_y, to_y] = std::pair(chart.y.from, chart.y.to);

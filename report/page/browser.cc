@@ -76,7 +76,7 @@ std::string bytes_of_base64(std::string_view text)
 
 const char* browser()
 {
-  const auto* const found = std::find_if(browsers.begin(), browsers.end(), is_installed);
+  const auto* const found = std::ranges::find_if(browsers, is_installed);
   return found == browsers.end() ? nullptr : *found;
 }
 

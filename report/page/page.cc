@@ -1,6 +1,8 @@
 #include "report/page/page.h"
 
+#include "base/mapped.h"
 #include "base/readable_file.h"
+#include "base/text.h"
 #include "base/whole_file.h"
 #include "report/chart/page_writer.h"
 #include "results/folder/result_folder.h"
@@ -9,6 +11,7 @@
 #include <kainjow/mustache.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 #include <string_view>
 
@@ -22,6 +25,7 @@ extern const std::string_view script_sha_256;  // of it, hexadecimal
 namespace
 {
 using kainjow::mustache::data;
+using kainjow::mustache::object;
 using live::base64;
 
 constexpr int wide_picture = 900; // from here on a picture takes the width of the page [px]
@@ -35,25 +39,16 @@ std::string hash_of_script()
   return "sha256-" + base64(bytes);
 }
 
-data list(const std::vector<std::string>& texts)
-{
-  data result = data::type::list;
-  for (const auto& text : texts)
-    result << data(text);
-  return result;
-}
+data list(const std::vector<std::string>& texts) { return mapped<data>(texts, std::identity()); }
 
-void set_unless_empty(data& object, const std::string& name, const std::string& text)
-{
-  object.set(name, text.empty() ? data(data::type::bool_false) : data(text));
-}
+data unless_empty(const std::string& text) { return text.empty() ? data(false) : data(text); }
 
 /// Columns that say something; the files have all.
 std::vector<std::size_t> columns_with_contents(const Table& table)
 {
   std::vector<std::size_t> columns;
   for (std::size_t c = 1; c < table.header.size(); ++c)
-    if (std::any_of(table.rows.begin(), table.rows.end(), [c](const std::vector<std::string>& row) {
+    if (std::ranges::any_of(table.rows, [c](const std::vector<std::string>& row) {
           return c < row.size() && !row[c].empty() && row[c] != "–";
         }))
       columns.push_back(c);
@@ -76,33 +71,20 @@ data describe(const Table& table)
   std::vector<std::string> header{table.header.front()};
   for (const std::size_t c : columns)
     header.push_back(table.header[c]);
-  data rows = data::type::list;
-  for (const auto& row : table.rows)
-    {
-      data cells = data::type::list;
-      for (const std::size_t c : columns)
-        {
-          if (c >= row.size())
-            break;
-          data cell = data::type::object;
-          cell.set("text", row[c]);
-          set_unless_empty(cell, "class", class_of(row[c]));
-          cells << cell;
-        }
-      data one = data::type::object;
-      one.set("heading", row.front());
-      one.set("cells", cells);
-      rows << one;
-    }
-  data result = data::type::object;
-  result.set("id", "table_" + table.name);
-  result.set("caption", table.caption);
+  const auto rows = mapped<data>(table.rows, [&](const std::vector<std::string>& row) {
+    kainjow::mustache::list cells;
+    for (const std::size_t c : columns)
+      if (c < row.size())
+        cells.push_back(object{{"text", row[c]}, {"class", unless_empty(class_of(row[c]))}});
+    return object{{"heading", row.front()}, {"cells", cells}};
+  });
   // The table is in the page itself: a link into its folder would be lost where it is mailed.
-  result.set("csv", "data:text/csv;charset=utf-8;base64," + base64(as_csv(table)));
-  result.set("file", table.name + ".csv");
-  result.set("header", list(header));
-  result.set("rows", rows);
-  return result;
+  return object{{"id", "table_" + table.name},
+                {"caption", table.caption},
+                {"csv", "data:text/csv;charset=utf-8;base64," + base64(as_csv(table))},
+                {"file", table.name + ".csv"},
+                {"header", list(header)},
+                {"rows", rows}};
 }
 
 /// Keeps the page within its size.
@@ -135,43 +117,36 @@ public:
             source = fmt::format("data:image/{};base64,{}", picture.raster ? "png" : "svg+xml", in_base64);
           }
       }
-    data files = data::type::list;
+    kainjow::mustache::list files;
     for (const auto& [ending, is_there] :
          {std::pair("PNG", picture.raster), {"SVG", picture.vector}, {"PDF", picture.vector}})
       if (is_there && shown.problem.empty())
         {
-          std::string small = ending;
-          for (char& c : small)
-            c = char(c - 'A' + 'a');
-          const std::string name = picture.name + "." + small;
+          const std::string name = picture.name + "." + in_small_letters(ending);
           const bool is_shown = picture.shown_file() == name;
-          const std::string pdf = small == "pdf" ? pdf_in_page(name) : "";
-          data file = data::type::object;
-          file.set("file", pdf.empty() ? file_of(name) : pdf);
-          file.set("ending", std::string(ending));
-          file.set("shown", data(is_shown));
-          set_unless_empty(file, "download", pdf.empty() ? "" : name);
-          file.set("beside", data(!is_shown && pdf.empty()));
-          files << file;
+          const std::string pdf = name.ends_with(".pdf") ? pdf_in_page(name) : "";
+          files.push_back(object{{"file", pdf.empty() ? file_of(name) : pdf},
+                                 {"ending", ending},
+                                 {"shown", is_shown},
+                                 {"download", unless_empty(pdf.empty() ? "" : name)},
+                                 {"beside", !is_shown && pdf.empty()}});
         }
-    data result = data::type::object;
-    set_unless_empty(result, "source", source);
     std::string live = picture.live();
     const bool has_room = n_bytes + live.size() <= most_picture_bytes;
     if (!has_room)
       live.clear();
     n_bytes += live.size();
-    set_unless_empty(result, "live", live);
     // The script draws a body for paper, too.
-    set_unless_empty(result, picture.body.empty() || live.empty() ? "absent" : "without_script", problem);
-    result.set("alternative", picture.alternative);
-    result.set("caption", picture.caption);
-    set_unless_empty(result, "live_caption", has_room ? picture.live_caption : "");
-    result.set("width", std::to_string(picture.width));
-    result.set("height", std::to_string(picture.height));
-    result.set("wide", data(picture.width >= wide_picture));
-    result.set("files", files);
-    return result;
+    return object{{"source", unless_empty(source)},
+                  {"live", unless_empty(live)},
+                  {picture.body.empty() || live.empty() ? "absent" : "without_script", unless_empty(problem)},
+                  {"alternative", picture.alternative},
+                  {"caption", picture.caption},
+                  {"live_caption", unless_empty(has_room ? picture.live_caption : "")},
+                  {"width", std::to_string(picture.width)},
+                  {"height", std::to_string(picture.height)},
+                  {"wide", picture.width >= wide_picture},
+                  {"files", files}};
   }
 
 private:
@@ -202,14 +177,18 @@ private:
 
 data describe(const Tile& tile)
 {
-  data result = data::type::object;
-  result.set("property", tile.property);
-  result.set("value", tile.value);
-  set_unless_empty(result, "notes", tile.notes);
-  result.set("n", fmt::format("{}", tile.n));
-  set_unless_empty(result, "class", !tile.in_range ? "" : *tile.in_range ? "good" : "bad");
-  set_unless_empty(result, "mark", !tile.in_range ? "" : *tile.in_range ? "✓" : "✗");
-  result.set("has_bar", data(tile.low && tile.high));
+  const std::optional<bool>& good = tile.in_range;
+  object result{{"property", tile.property},
+                {"value", tile.value},
+                {"notes", unless_empty(tile.notes)},
+                {"n", fmt::format("{}", tile.n)},
+                {"class", unless_empty(!good   ? ""
+                                       : *good ? "good"
+                                               : "bad")},
+                {"mark", unless_empty(!good   ? ""
+                                      : *good ? "✓"
+                                              : "✗")},
+                {"has_bar", tile.low && tile.high}};
   if (!tile.low || !tile.high)
     return result;
   // The bar holds the range and the deviations, with room at both ends.
@@ -221,48 +200,37 @@ data describe(const Tile& tile)
   const auto length = [&](const double value) {
     return fmt::format("{:.1f}%", width > 0.0 ? 84.0 * value / width : 0.0);
   };
-  result.set("range_at", place(*tile.low));
-  result.set("range_width", length(*tile.high - *tile.low));
-  result.set("deviation_at", place(tile.mean - tile.deviation));
-  result.set("deviation_width", length(2.0 * tile.deviation));
-  result.set("mean_at", place(tile.mean));
+  result.insert({{"range_at", place(*tile.low)},
+                 {"range_width", length(*tile.high - *tile.low)},
+                 {"deviation_at", place(tile.mean - tile.deviation)},
+                 {"deviation_width", length(2.0 * tile.deviation)},
+                 {"mean_at", place(tile.mean)}});
   return result;
 }
 
 data describe(const PageBlock& block, PictureShelf& shelf)
 {
-  data tables = data::type::list;
-  for (const auto& table : block.tables)
-    tables << describe(table);
-  data figures = data::type::list;
-  for (const auto& picture : block.pictures)
-    figures << shelf.describe(picture);
-  data result = data::type::object;
-  set_unless_empty(result, "folded", block.folded);
-  set_unless_empty(result, "subheading", block.subheading);
-  set_unless_empty(result, "chip", block.chip);
-  set_unless_empty(result, "headline", block.headline);
-  result.set("paragraphs", list(block.paragraphs));
-  data tiles = data::type::list;
-  for (const Tile& tile : block.tiles)
-    tiles << describe(tile);
-  result.set("has_tiles", data(!block.tiles.empty()));
-  result.set("tiles", tiles);
-  result.set("has_points", data(!block.points.empty()));
-  result.set("points", list(block.points));
-  result.set("has_warnings", data(!block.warnings.empty()));
-  result.set("warnings", list(block.warnings));
-  result.set("tables", tables);
-  result.set("has_lead", data(!block.lead.empty()));
-  data beside = data::type::list;
-  data below = data::type::list;
-  for (std::size_t k = 0; k < block.lead.size(); ++k)
-    (k == 0 ? beside : below) << shelf.describe(block.lead[k]);
-  result.set("beside", beside);
-  result.set("below", below);
-  result.set("has_figures", data(!block.pictures.empty()));
-  result.set("figures", figures);
-  return result;
+  const auto drawn = [&](const PagePicture& picture) { return shelf.describe(picture); };
+  const auto figures = mapped<data>(block.pictures, drawn);
+  const auto lead = mapped<data>(block.lead, drawn);
+  const auto behind_first = lead.begin() + (lead.empty() ? 0 : 1);
+  return object{{"folded", unless_empty(block.folded)},
+                {"subheading", unless_empty(block.subheading)},
+                {"chip", unless_empty(block.chip)},
+                {"headline", unless_empty(block.headline)},
+                {"paragraphs", list(block.paragraphs)},
+                {"has_tiles", !block.tiles.empty()},
+                {"tiles", mapped<data>(block.tiles, [](const Tile& tile) { return describe(tile); })},
+                {"has_points", !block.points.empty()},
+                {"points", list(block.points)},
+                {"has_warnings", !block.warnings.empty()},
+                {"warnings", list(block.warnings)},
+                {"tables", mapped<data>(block.tables, [](const Table& table) { return describe(table); })},
+                {"has_lead", !lead.empty()},
+                {"beside", kainjow::mustache::list(lead.begin(), behind_first)},
+                {"below", kainjow::mustache::list(behind_first, lead.end())},
+                {"has_figures", !block.pictures.empty()},
+                {"figures", figures}};
 }
 
 /// Renders a page with pictures, and with PDFs of them, of so many bytes at most.
@@ -270,30 +238,23 @@ std::string rendered(const Page& page, const std::filesystem::path& figures, con
                      const std::size_t room_for_pdf)
 {
   PictureShelf shelf(figures, room, room_for_pdf);
-  data sections = data::type::list;
-  for (const auto& section : page.sections)
-    {
-      data blocks = data::type::list;
-      for (const auto& block : section.blocks)
-        blocks << describe(block, shelf);
-      data one = data::type::object;
-      one.set("id", section.id);
-      one.set("short_title", section.short_title);
-      one.set("heading", section.heading);
-      set_unless_empty(one, "section_folded", section.folded);
-      one.set("blocks", blocks);
-      sections << one;
-    }
-  data whole = data::type::object;
-  whole.set("title", page.title);
-  whole.set("subtitle", page.subtitle);
-  set_unless_empty(whole, "labels", page.labels);
-  set_unless_empty(whole, "paper_head", page.paper_head);
-  whole.set("brief_on_paper", data(!page.prints_folded));
-  whole.set("sections", sections);
-  whole.set("script_hash", hash_of_script());
-  whole.set("script", std::string(page_script));
-  whole.set("figure", kainjow::mustache::partial([] { return std::string(figure_template); }));
+  const auto sections = mapped<data>(page.sections, [&](const PageSection& section) {
+    return object{
+      {"id", section.id},
+      {"short_title", section.short_title},
+      {"heading", section.heading},
+      {"section_folded", unless_empty(section.folded)},
+      {"blocks", mapped<data>(section.blocks, [&](const PageBlock& block) { return describe(block, shelf); })}};
+  });
+  const object whole{{"title", page.title},
+                     {"subtitle", page.subtitle},
+                     {"labels", unless_empty(page.labels)},
+                     {"paper_head", unless_empty(page.paper_head)},
+                     {"brief_on_paper", !page.prints_folded},
+                     {"sections", sections},
+                     {"script_hash", hash_of_script()},
+                     {"script", std::string(page_script)},
+                     {"figure", kainjow::mustache::partial([] { return std::string(figure_template); })}};
 
   kainjow::mustache::mustache filled{std::string(page_template)};
   if (!filled.is_valid())

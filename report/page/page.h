@@ -35,19 +35,19 @@ struct Tile
 /// A piece of a section; what is empty is left out.
 struct PageBlock
 {
-  std::string folded; ///< heading of a block that is to be opened first
-  std::string subheading;
-  std::string chip; ///< colour beside the subheading
-  std::string headline;
-  std::vector<std::string> paragraphs;
-  std::vector<Tile> tiles;
-  std::vector<std::string> points;
-  std::vector<std::string> warnings;
-  std::vector<Table> tables;
-  std::vector<Table> tables_as_files; ///< beside the page alone
-  std::vector<PagePicture> pictures;
-  std::vector<PagePicture>
-    lead; ///< the first left of headline and paragraphs, where the screen is wide enough; others below them
+  std::string folded = {}; ///< heading of a block that is to be opened first
+  std::string subheading = {};
+  std::string chip = {}; ///< colour beside the subheading
+  std::string headline = {};
+  std::vector<std::string> paragraphs = {};
+  std::vector<Tile> tiles = {};
+  std::vector<std::string> points = {};
+  std::vector<std::string> warnings = {};
+  std::vector<Table> tables = {};
+  std::vector<Table> tables_as_files = {}; ///< beside the page alone
+  std::vector<PagePicture> pictures = {};
+  std::vector<PagePicture> lead =
+    {}; ///< the first left of headline and paragraphs, where the screen is wide enough; others below them
 };
 
 struct PageSection

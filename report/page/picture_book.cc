@@ -1,5 +1,6 @@
 #include "report/page/picture_book.h"
 
+#include "base/contains.h"
 #include "base/whole_file.h"
 #include "report/page/browser.h"
 
@@ -82,12 +83,9 @@ std::string PictureBook::draw_into(const std::filesystem::path& folder, Page& pa
             if (!problem.empty() && picture.story.empty())
               picture.story = picture.body;
           }
-  const auto first = std::find_if(problems.begin(), problems.end(), [](const auto& text) { return !text.empty(); });
+  const auto first = std::ranges::find_if(problems, [](const auto& text) { return !text.empty(); });
   return first == problems.end() ? "" : *first;
 }
 
-bool PictureBook::is_taken(const std::string& name) const
-{
-  return std::any_of(all.begin(), all.end(), [&](const Picture& picture) { return picture.name == name; });
-}
+bool PictureBook::is_taken(const std::string& name) const { return contains(all, name, &Picture::name); }
 } // namespace feldspar

@@ -3,21 +3,15 @@
 #include "base/text.h"
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
 
 namespace feldspar
 {
 namespace
 {
-bool is_number(const std::string& text)
+bool would_be_a_formula(const std::string& cell)
 {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
+  return cell.find_first_of("=+-@\t\r\n") == 0 && !number_in<double>(cell);
 }
-
-bool would_be_a_formula(const std::string& cell) { return cell.find_first_of("=+-@\t\r\n") == 0 && !is_number(cell); }
 
 std::string as_csv(const std::vector<std::string>& cells)
 {

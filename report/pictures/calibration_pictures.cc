@@ -40,7 +40,7 @@ SampledColumn column_of(const std::string& name, const std::vector<double>& si_v
         words.resize(words.size() - unit.size() - 1);
       }
   const ShownUnit unit = shown_unit(si_unit, si_values.front());
-  std::replace(words.begin(), words.end(), '_', ' ');
+  std::ranges::replace(words, '_', ' ');
   column.label = unit.name.empty() ? words : fmt::format("{} [{}]", words, unit.name);
   for (const double value : si_values)
     column.values.push_back(value / unit.size);
@@ -50,7 +50,7 @@ SampledColumn column_of(const std::string& name, const std::vector<double>& si_v
 /// Step between the marks of an axis, so that one to three stand on it: 1, 2 or 5 times a power of ten.
 double step_of_marks(const std::vector<double>& values)
 {
-  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  const auto [least, largest] = std::ranges::minmax_element(values);
   const double wanted = (*largest - *least) / 1.3;
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double first = wanted / power;
@@ -61,7 +61,7 @@ double step_of_marks(const std::vector<double>& values)
 ChartSeries histogram(const std::vector<double>& values)
 {
   constexpr std::size_t n_bins = 24;
-  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  const auto [least, largest] = std::ranges::minmax_element(values);
   const double width = std::max(*largest - *least, 1e-12) / double(n_bins);
   std::vector<std::size_t> counts(n_bins, 0);
   for (const double value : values)
@@ -88,8 +88,8 @@ Pictures pair_picture(const CalibrationRecord& record)
 {
   std::vector<SampledColumn> columns;
   for (std::size_t c = 0; c < record.sampled.size() && columns.size() < most_columns; ++c)
-    if (const auto& values = record.samples[c]; !values.empty() && *std::max_element(values.begin(), values.end()) >
-                                                                     *std::min_element(values.begin(), values.end()))
+    if (const auto& values = record.samples[c];
+        !values.empty() && *std::ranges::max_element(values) > *std::ranges::min_element(values))
       columns.push_back(column_of(record.sampled[c], values));
   if (columns.size() < 2)
     return {};

@@ -52,7 +52,7 @@ struct EnvelopePlot
     const std::vector<ChartPoint> pressed = strength_points(series, false);
     const std::vector<ChartPoint> pulled = strength_points(series, true);
     const auto scatters = [](const ChartPoint& point) { return point[2] < point[3]; };
-    if (std::any_of(pressed.begin(), pressed.end(), scatters) || std::any_of(pulled.begin(), pulled.end(), scatters))
+    if (std::ranges::any_of(pressed, scatters) || std::ranges::any_of(pulled, scatters))
       label += ": mean ± s.d.";
     ChartSeries marks{.kind = Kind::marks,
                       .label = label,

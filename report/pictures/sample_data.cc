@@ -35,7 +35,7 @@ FieldTitle title_of(const std::string& field)
     if (field.ends_with(ending))
       {
         std::string name = field.substr(0, field.size() - std::string_view(ending).size());
-        std::replace(name.begin(), name.end(), '_', ' ');
+        std::ranges::replace(name, '_', ' ');
         return {name, unit, size};
       }
   return {};

@@ -61,7 +61,7 @@ PlanePoint SampleView::place(const PointRve& rve) const
     at = {at[0], at[2], 0.0};
   // The displacement of the nodes of its cell, as near as a linear one comes to it.
   const auto& numbers = fields.of_each_cell.at("cell");
-  const auto found = std::find(numbers.begin(), numbers.end(), double(rve.cell));
+  const auto found = std::ranges::find(numbers, double(rve.cell));
   if (found == numbers.end())
     return in_picture(at);
   const auto& corners = fields.cells[std::size_t(found - numbers.begin())];
@@ -136,8 +136,7 @@ SamplePiece SampleView::section(const std::size_t k) const
   const auto angle = [&](const auto& corner) {
     return std::atan2(corner.first[1] - middle[1], corner.first[0] - middle[0]);
   };
-  std::sort(corners.begin(), corners.end(),
-            [&](const auto& one, const auto& other) { return angle(one) < angle(other); });
+  std::ranges::sort(corners, [&](const auto& one, const auto& other) { return angle(one) < angle(other); });
   SamplePiece piece{k, {}, {}};
   for (const auto& [rest, displaced] : corners)
     {

@@ -4,8 +4,6 @@
 #include "report/pictures/plot_style.h"
 #include "results/fits/residual_strength.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -59,7 +59,7 @@ bool goes_along(const std::vector<Series>& all, const VariedEntry& entry, const 
   for (const auto& [number, value] : companion)
     if (const auto of_other = number_of({other, value}))
       numbers.push_back(of_other->value);
-  return numbers.size() != companion.size() || std::is_sorted(numbers.begin(), numbers.end()) ||
+  return numbers.size() != companion.size() || std::ranges::is_sorted(numbers) ||
          std::is_sorted(numbers.rbegin(), numbers.rend());
 }
 
@@ -91,7 +91,7 @@ std::vector<Abscissa> abscissas(const std::vector<Series>& all)
       for (const std::string& other : entries)
         if (other != entry.entry && goes_along(all, entry, other))
           one.along.insert(other);
-      const bool is_known = std::any_of(result.begin(), result.end(), [&](const Abscissa& before) {
+      const bool is_known = std::ranges::any_of(result, [&](const Abscissa& before) {
         return before.along.contains(entry.entry) && one.along.contains(before.varied.entry);
       });
       if (!is_known)
@@ -121,9 +121,8 @@ std::vector<StudyLine> lines_of(const std::vector<Series>& all, const Abscissa& 
                                     setting.entry.substr(setting.entry.find('/') + 1), setting.value);
           if (!value)
             continue;
-          auto line = std::find_if(lines.begin(), lines.end(), [&](const StudyLine& one) {
-            return one.title == group.title() && one.others == others;
-          });
+          auto line = std::ranges::find_if(
+            lines, [&](const StudyLine& one) { return one.title == group.title() && one.others == others; });
           if (line == lines.end())
             line = lines.insert(lines.end(), {group.kind, group.title(), others, {}});
           line->results[*value].push_back(*figure.value / property.scale);
@@ -165,8 +164,8 @@ double StudyEffect::change() const
 
 double StudyEffect::reach() const
 {
-  const auto [least, most] = std::minmax_element(
-    means.begin(), means.end(), [](const auto& one, const auto& other) { return one.second < other.second; });
+  const auto [least, most] =
+    std::ranges::minmax_element(means, [](const auto& one, const auto& other) { return one.second < other.second; });
   const double larger = std::max(std::abs(least->second), std::abs(most->second));
   return larger > 0.0 ? (most->second - least->second) / larger : 0.0;
 }

@@ -17,7 +17,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace feldspar
@@ -61,8 +60,8 @@ std::vector<Selection> selections(const std::vector<Series>& all, const Abscissa
   std::vector<Selection> result;
   for (const StudyLine& line : whole.lines)
     {
-      const auto same = std::find_if(result.begin(), result.end(),
-                                     [&](const Selection& one) { return one.lines.front().kind == line.kind; });
+      const auto same =
+        std::ranges::find_if(result, [&](const Selection& one) { return one.lines.front().kind == line.kind; });
       if (same == result.end())
         result.push_back({{line}, fmt::format("_{}", line.kind.name), whole.remark, whole.joined});
       else
@@ -221,7 +220,7 @@ std::vector<Picture> maps(const std::vector<Series>& all, const std::vector<Absc
   std::vector<TestGroup> groups;
   for (const Series& series : all)
     for (const TestGroup& group : groups_of(series))
-      if (std::none_of(groups.begin(), groups.end(), [&](const TestGroup& one) { return same_conditions(one, group); }))
+      if (std::ranges::none_of(groups, [&](const TestGroup& one) { return same_conditions(one, group); }))
         groups.push_back(group);
   std::vector<Picture> pictures;
   for (const StudiedResult& property : studied_results(all))

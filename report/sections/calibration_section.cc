@@ -39,7 +39,7 @@ std::string heading(const std::string& title, const ShownUnit& unit)
 /// test of them failed.
 bool was_tested(const CalibrationRecord& record)
 {
-  return std::any_of(record.parameters.begin(), record.parameters.end(), [](const auto& row) { return row.median; });
+  return std::ranges::any_of(record.parameters, [](const auto& row) { return row.median.has_value(); });
 }
 
 /// The decision on all targets in a sentence.
@@ -137,8 +137,8 @@ Table prediction_table(const CalibrationRecord& record)
               {}};
   for (const auto& row : record.predictions)
     {
-      const bool is_target = std::any_of(record.targets.begin(), record.targets.end(),
-                                         [&](const auto& target) { return target.name == row.name; });
+      const bool is_target =
+        std::ranges::any_of(record.targets, [&](const auto& target) { return target.name == row.name; });
       const ShownUnit unit = shown_unit(row.unit, row.median);
       if (!is_target)
         table.rows.push_back(
@@ -151,13 +151,13 @@ Table prediction_table(const CalibrationRecord& record)
 template <typename Row>
 std::optional<std::string> title_in(const std::vector<Row>& rows, const std::string& name)
 {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
+  const auto found = std::ranges::find(rows, name, &Row::name);
   return found == rows.end() ? std::nullopt : std::optional(found->title);
 }
 
 std::string words_of_name(std::string name)
 {
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '_', ' ');
   return name;
 }
 

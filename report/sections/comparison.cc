@@ -1,5 +1,6 @@
 #include "report/sections/comparison.h"
 
+#include "base/contains.h"
 #include "base/text.h"
 #include "laboratory/named_entries.h"
 #include "report/sections/text.h"
@@ -131,7 +132,7 @@ std::vector<TestKind> notched_kinds(const std::vector<FinishedTest>& tests)
 {
   std::vector<TestKind> kinds;
   for (const auto& test : tests)
-    if (test.record.kind.has_notch && std::find(kinds.begin(), kinds.end(), test.record.kind) == kinds.end())
+    if (test.record.kind.has_notch && !contains(kinds, test.record.kind))
       kinds.push_back(test.record.kind);
   return kinds;
 }
@@ -170,14 +171,13 @@ std::vector<std::pair<TestGroup, BySeed>> other_strengths(const std::vector<Fini
       {
         TestGroup group = group_of(test.record);
         group.confining_pressure = std::round(group.confining_pressure); // as references name it
-        auto found = std::find_if(others.begin(), others.end(),
-                                  [&](const auto& other) { return same_conditions(other.first, group); });
+        auto found =
+          std::ranges::find_if(others, [&](const auto& other) { return same_conditions(other.first, group); });
         if (found == others.end())
           found = others.insert(others.end(), {group, {}});
         found->second[test.record.seed] = *test.results.peak_stress.value;
       }
-  std::stable_sort(others.begin(), others.end(),
-                   [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
+  std::ranges::stable_sort(others, [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
   return others;
 }
 } // namespace
@@ -232,7 +232,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
 
   const bool flawed = beside_flaws || any_has_flaws(tests);
   const auto title_of = [&](const RockProperty& property) {
-    const auto test = std::find_if(tests.begin(), tests.end(), [&](const FinishedTest& one) {
+    const auto test = std::ranges::find_if(tests, [&](const FinishedTest& one) {
       return property.figure == &TestResults::peak_stress && gives(property.source, one.record.kind);
     });
     return test == tests.end() ? std::string(property.title) : strength_name(test->record.kind, flawed);
@@ -272,7 +272,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
       if (property.source == PropertySource::notch)
         {
           std::string by(kind.name);
-          std::replace(by.begin(), by.end(), '_', ' ');
+          std::ranges::replace(by, '_', ' ');
           const auto [values, why_missing] = of_notched(tests, kind, property.figure);
           add_property(property, values, fmt::format("{}, {}", property.title, by), why_missing);
         }
@@ -330,7 +330,7 @@ std::vector<std::string> properties_without_a_test(const std::vector<ComparisonR
   std::vector<std::string> keys;
   if (reference)
     for (const auto& [key, value] : reference->experiment.values)
-      if (!is_given(key) && std::none_of(rows.begin(), rows.end(), [&, wanted = key](const ComparisonRow& row) {
+      if (!is_given(key) && std::ranges::none_of(rows, [&, wanted = key](const ComparisonRow& row) {
             return row.key == wanted && (row.ours || !row.why_missing.empty());
           }))
         keys.push_back(key);
@@ -344,11 +344,11 @@ std::vector<std::string> sentences_on_missing(const std::vector<ComparisonRow>& 
   for (const ComparisonRow& row : rows)
     if (row.experiment && !row.why_missing.empty())
       {
-        const bool another_has_it = std::any_of(rows.begin(), rows.end(), [&](const ComparisonRow& other) {
+        const bool another_has_it = std::ranges::any_of(rows, [&](const ComparisonRow& other) {
           return other.property == row.property && other.ours; // another variant
         });
         const std::string sentence = fmt::format("No figure of {}: {}.", row.property, row.why_missing);
-        if (!another_has_it && std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
+        if (!another_has_it && !contains(sentences, sentence))
           sentences.push_back(sentence);
       }
   if (const auto keys = properties_without_a_test(rows, reference); !keys.empty())

@@ -27,16 +27,9 @@ std::string cell(const std::optional<bool>& value) { return value ? (*value ? "t
 
 const char* name_of(const SeriesKind kind)
 {
-  switch (kind)
-    {
-    case SeriesKind::specimens:
-      return "specimens";
-    case SeriesKind::finite_elements:
-      return "finite elements";
-    case SeriesKind::laboratory_curve:
-      return "laboratory curve";
-    }
-  return "";
+  return kind == SeriesKind::specimens         ? "specimens"
+         : kind == SeriesKind::finite_elements ? "finite elements"
+                                               : "laboratory curve";
 }
 
 /// A figure as a series has it or a reference gives it.
@@ -125,8 +118,8 @@ void add_series(DataFrame& frame, const Series& series, const std::vector<Compar
 
 std::vector<std::size_t> compared_series(const Findings& findings)
 {
-  const bool any_model = std::any_of(findings.all.begin(), findings.all.end(),
-                                     [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
+  const bool any_model =
+    std::ranges::any_of(findings.all, [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
   std::vector<std::size_t> compared;
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     // A single curve is a series of figures of its own; several are the rock beside which the model stands.

@@ -1,6 +1,7 @@
 #include "report/sections/comparison_table.h"
 
 #include "base/append.h"
+#include "base/contains.h"
 #include "report/pictures/plot_style.h"
 #include "report/sections/comparison_frame.h"
 #include "report/sections/text.h"
@@ -59,16 +60,14 @@ std::vector<std::string> properties_of(const Findings& findings, const std::vect
   std::vector<std::string> properties;
   for (const std::size_t n : compared)
     for (const auto& row : findings.comparisons[n])
-      if ((row.ours || row.experiment || row.model) &&
-          std::find(properties.begin(), properties.end(), row.property) == properties.end())
+      if ((row.ours || row.experiment || row.model) && !contains(properties, row.property))
         properties.push_back(row.property);
   return properties;
 }
 
 std::vector<ComparisonRow>::const_iterator row_of(const std::vector<ComparisonRow>& rows, const std::string& property)
 {
-  return std::find_if(rows.begin(), rows.end(),
-                      [&](const ComparisonRow& candidate) { return candidate.property == property; });
+  return std::ranges::find(rows, property, &ComparisonRow::property);
 }
 
 /// Ours: mean, standard deviation and the number of specimens, or the values of two.

@@ -67,9 +67,8 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
             const std::size_t n_cracks = test->record.cracks.size();
             if (!test->appearance.grains_at_end.empty() && n_cracks > 0 && together.tests.size() < most_specimens)
               {
-                const auto curve = std::find_if(curves.begin(), curves.end(), [&](const ConfinedCurves& one) {
-                  return one.group.title() == group.title();
-                });
+                const auto curve = std::ranges::find_if(
+                  curves, [&](const ConfinedCurves& one) { return one.group.title() == group.title(); });
                 together.tests.push_back({test, fmt::format("{}, seed {}", group.title(), test->record.seed),
                                           curve == curves.end() ? "" : curve->colour});
                 if (n_cracks > together.n_cracks)
@@ -94,9 +93,8 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
       block.pictures = place(taken_for_viewer(together, maps));
       append(block.pictures, place(pictures_of(direction_figures, among)));
       append(block.pictures, place(pictures_of(fragment_size_figures, among)));
-      PageBlock of_tests;
-      of_tests.folded = findings.titled("Cracks and fragments of each test", series);
-      of_tests.pictures = place(std::move(maps));
+      PageBlock of_tests{.folded = findings.titled("Cracks and fragments of each test", series),
+                         .pictures = place(std::move(maps))};
       append(of_tests.pictures, place(std::move(fragments)));
       if (!findings.is_in_full(n))
         continue;
@@ -112,12 +110,11 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
       if (!of_tests.pictures.empty())
         section.blocks.push_back(of_tests);
     }
-  PageBlock together;
   const std::vector<StrengthEnvelopes> envelopes = findings.pictured_envelopes();
-  together.pictures =
-    book.keep(pictures_of(crack_figures_of_all, AllSeries{findings.pictured, envelopes, findings.reference}));
-  if (!together.pictures.empty())
-    section.blocks.push_back(together);
+  if (auto together =
+        book.keep(pictures_of(crack_figures_of_all, AllSeries{findings.pictured, envelopes, findings.reference}));
+      !together.empty())
+    section.blocks.push_back({.pictures = std::move(together)});
   append(section.blocks,
          findings.remark_on_pictures(fmt::format("Those of the others are in {}/.", result_file::figures)));
   return section;

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
 #include <utility>
 
 namespace feldspar
@@ -27,9 +26,8 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
   for (auto& group : curve_pictures(findings.pictured))
     if (group.on_page)
       {
-        PageBlock block;
-        block.folded = group.title + ": cracks and energies";
-        block.pictures = book.keep(std::move(group.pictures));
+        PageBlock block{.folded = group.title + ": cracks and energies",
+                        .pictures = book.keep(std::move(group.pictures))};
         stresses.pictures.push_back(std::move(block.pictures.front()));
         block.pictures.erase(block.pictures.begin());
         if (!block.pictures.empty())
@@ -51,10 +49,8 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
           !emission.rows.empty() && findings.is_in_full(n))
         {
           emission.name += findings.ending_of_files(n);
-          PageBlock block;
-          block.folded = findings.titled("Acoustic emission", findings.all[n]);
-          block.tables.push_back(std::move(emission));
-          section.blocks.push_back(block);
+          section.blocks.push_back(
+            {.folded = findings.titled("Acoustic emission", findings.all[n]), .tables = {std::move(emission)}});
         }
       if (Table stages = stage_table(findings.all[n].tests); !stages.rows.empty())
         {

@@ -69,8 +69,7 @@ std::string verdict_on(const FitQuality& quality, const std::vector<Estimate>& p
 {
   if (quality.degrees_of_freedom == 0)
     return "no more points than parameters: not drawn";
-  return std::any_of(parameters.begin(), parameters.end(), is_undetermined) ? "not determined: an interval reaches 0"
-                                                                            : otherwise;
+  return std::ranges::any_of(parameters, is_undetermined) ? "not determined: an interval reaches 0" : otherwise;
 }
 
 Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
@@ -132,7 +131,7 @@ Table residual_table(const StrengthEnvelopes& envelopes, const std::string& name
       if (!record.reason.empty())
         continue;
       std::string heading = title_of_form(record.form) + (record.variant.empty() ? "" : ", " + record.variant);
-      std::replace(heading.begin(), heading.end(), '_', ' ');
+      std::ranges::replace(heading, '_', ' ');
       table.header.push_back(heading);
       for (const auto& [point, residual] : record.residuals)
         residuals[{point.sigma_3, point.sigma_1}][n_fits] = residual;
@@ -167,10 +166,9 @@ std::string remark_on_printed(const ReferenceSource& source)
 /// envelope.
 bool make_an_envelope(const StrengthData& data)
 {
-  return !data.points.empty() &&
-         (data.tensile_strength || std::any_of(data.points.begin(), data.points.end(), [&](const auto& point) {
-            return point.sigma_3 != data.points.front().sigma_3;
-          }));
+  return !data.points.empty() && (data.tensile_strength || std::ranges::any_of(data.points, [&](const auto& point) {
+                                    return point.sigma_3 != data.points.front().sigma_3;
+                                  }));
 }
 
 /// Block of a series that the page has no room for: its pictures are files.
@@ -180,10 +178,8 @@ PageBlock as_files(const Findings& findings, const std::size_t n, PictureBook& b
   const SeriesAmong among{findings.all, n, envelopes, findings.reference};
   book.keep_as_files(pictures_of(strength_figures, among));
   book.keep_as_files(pictures_of(residual_figures, among));
-  PageBlock block;
-  block.tables_as_files = {fit_table(envelopes, "envelopes" + findings.ending_of_files(n)),
-                           residual_table(envelopes, "residuals" + findings.ending_of_files(n))};
-  return block;
+  return {.tables_as_files = {fit_table(envelopes, "envelopes" + findings.ending_of_files(n)),
+                              residual_table(envelopes, "residuals" + findings.ending_of_files(n))}};
 }
 
 /// The envelopes of the experiment's own points, and its tests that are none of them; empty where there is neither.
@@ -259,23 +255,19 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
   PageSection section{"envelope", "Envelope", "Strength envelope", {}};
   const std::vector<StrengthEnvelopes> pictured_envelopes = findings.pictured_envelopes();
   const bool any_envelope =
-    findings.reference || std::any_of(findings.envelopes.begin(), findings.envelopes.end(),
-                                      [](const StrengthEnvelopes& one) { return make_an_envelope(one.data); });
+    findings.reference ||
+    std::ranges::any_of(findings.envelopes, [](const StrengthEnvelopes& one) { return make_an_envelope(one.data); });
   if (!any_envelope && findings.has_several())
     {
-      section.blocks.push_back({});
-      section.blocks.back().paragraphs.push_back(
-        "No series has strengths at two confinements, or in compression and tension, so there is no envelope.");
+      section.blocks.push_back(
+        {.paragraphs = {
+           "No series has strengths at two confinements, or in compression and tension, so there is no envelope."}});
       return section;
     }
   Pictures of_all =
     pictures_of(strength_figures_of_all, AllSeries{findings.pictured, pictured_envelopes, findings.reference});
   if (any_envelope && findings.has_several() && !of_all.empty())
-    {
-      PageBlock together;
-      together.pictures = book.keep(of_all);
-      section.blocks.push_back(together);
-    }
+    section.blocks.push_back({.pictures = book.keep(of_all)});
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       const StrengthEnvelopes& envelopes = findings.envelopes[n];
@@ -288,15 +280,12 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
           continue;
         }
       PageBlock block = findings.heading_of(n);
-      if (envelopes.data.points.empty())
+      const bool any_points = !envelopes.data.points.empty();
+      if (!any_points || (!make_an_envelope(envelopes.data) && !findings.reference))
         {
-          block.paragraphs.push_back("No compression test of this series has a strength, so there is no envelope.");
-          section.blocks.push_back(block);
-          continue;
-        }
-      if (!make_an_envelope(envelopes.data) && !findings.reference)
-        {
-          block.paragraphs.push_back("All strengths of this series are at one confinement, so there is no envelope.");
+          block.paragraphs.push_back(any_points
+                                       ? "All strengths of this series are at one confinement, so there is no envelope."
+                                       : "No compression test of this series has a strength, so there is no envelope.");
           section.blocks.push_back(block);
           continue;
         }
@@ -310,13 +299,12 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       if (!findings.has_several())
         block.pictures = book.keep(of_all);
       section.blocks.push_back(block);
-      PageBlock figures;
-      figures.folded = findings.titled("Every fitted form", findings.all[n]);
-      figures.pictures = book.keep(pictures_of(strength_figures, among));
-      figures.paragraphs.push_back(
-        "Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
-        "has more points than parameters; q over p shows the part under compression.");
-      figures.tables.push_back(fit_table(envelopes, "envelopes" + findings.ending_of_files(n)));
+      PageBlock figures{
+        .folded = findings.titled("Every fitted form", findings.all[n]),
+        .paragraphs = {"Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
+                       "has more points than parameters; q over p shows the part under compression."},
+        .tables = {fit_table(envelopes, "envelopes" + findings.ending_of_files(n))},
+        .pictures = book.keep(pictures_of(strength_figures, among))};
       if (const auto& fit = envelopes.mohr_coulomb.fit)
         figures.paragraphs.push_back(text_of(*fit));
       figures.paragraphs.push_back(
@@ -324,12 +312,10 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
         "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0. “Regression” is Hoek's, a straight line "
         "through (σ₁ − σ₃)² over σ₃, by which most printed m_i were found.");
       section.blocks.push_back(figures);
-      PageBlock residuals;
-      residuals.folded = findings.titled("Residual of every point", findings.all[n]);
-      residuals.pictures = book.keep(pictures_of(residual_figures, among));
-      residuals.tables.push_back(residual_table(envelopes, "residuals" + findings.ending_of_files(n)));
-      if (!residuals.pictures.empty())
-        section.blocks.push_back(residuals);
+      if (auto residuals = book.keep(pictures_of(residual_figures, among)); !residuals.empty())
+        section.blocks.push_back({.folded = findings.titled("Residual of every point", findings.all[n]),
+                                  .tables = {residual_table(envelopes, "residuals" + findings.ending_of_files(n))},
+                                  .pictures = std::move(residuals)});
     }
   append(section.blocks, findings.remark_on_pictures(fmt::format("Pictures and fits of the others are in {}/ and {}/.",
                                                                  result_file::figures, result_file::tables)));

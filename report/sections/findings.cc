@@ -24,21 +24,13 @@ std::vector<PageBlock> Findings::remark_on_pictures(const std::string& others) c
 {
   if (!has_many())
     return {};
-  PageBlock block;
-  block.paragraphs.push_back(
-    fmt::format("Pictures show the first {} of {} series. {}", most_series_in_full, all.size(), others));
-  return {block};
+  return {PageBlock{.paragraphs = {fmt::format("Pictures show the first {} of {} series. {}", most_series_in_full,
+                                               all.size(), others)}}};
 }
 
 PageBlock Findings::heading_of(const std::size_t n) const
 {
-  PageBlock block;
-  if (has_several())
-    {
-      block.subheading = all[n].label;
-      block.chip = plot::colour(all[n], n);
-    }
-  return block;
+  return has_several() ? PageBlock{.subheading = all[n].label, .chip = plot::colour(all[n], n)} : PageBlock();
 }
 
 std::string Findings::titled(const std::string& title, const Series& series) const

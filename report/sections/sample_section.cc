@@ -2,6 +2,7 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
+#include "base/contains.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/rves.h"
 #include "report/sections/text.h"
@@ -33,8 +34,8 @@ std::vector<Table> rve_tables(const FinishedTest& test, const std::string& title
   for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)
     {
       const PointRve& rve = test.appearance.rves[k];
-      const auto n_shear = std::count_if(rve.cracks.begin(), rve.cracks.end(),
-                                         [](const Crack& crack) { return crack.kind == CrackKind::shear; });
+      const auto n_shear =
+        std::ranges::count_if(rve.cracks, [](const Crack& crack) { return crack.kind == CrackKind::shear; });
       table.rows.push_back({fmt::format("{}, {}", letter_of_rve(k), rve.which),
                             standing_of(rve, test.appearance.fields), rve.place(), fmt::format("{}", rve.cracks.size()),
                             number(100.0 * broken_share(rve), 2), fmt::format("{}", n_shear)});
@@ -47,8 +48,8 @@ const FinishedTest* with_fields(const TestGroup& group)
 {
   if (const auto* test = typical(group))
     return test;
-  const auto found = std::find_if(group.tests.begin(), group.tests.end(),
-                                  [](const FinishedTest* test) { return !test->appearance.fields.nodes.empty(); });
+  const auto found =
+    std::ranges::find_if(group.tests, [](const FinishedTest* test) { return !test->appearance.fields.nodes.empty(); });
   return found == group.tests.end() ? nullptr : *found;
 }
 } // namespace
@@ -76,15 +77,13 @@ PageSection sample_section(const Findings& findings, PictureBook& book)
             if (!findings.one_folder)
               for (Picture& picture : pictures)
                 picture.name += findings.ending_of_files(n);
-            if (std::find(on_page.begin(), on_page.end(), test) == on_page.end())
+            if (!contains(on_page, test))
               {
                 if (findings.one_folder)
                   book.keep_as_files(std::move(pictures));
                 continue;
               }
-            PageBlock block;
-            block.subheading = title;
-            block.pictures = book.keep(std::move(pictures));
+            PageBlock block{.subheading = title, .pictures = book.keep(std::move(pictures))};
             if (block.pictures.empty())
               continue;
             block.tables = rve_tables(*test, title, findings.one_folder ? "" : findings.ending_of_files(n));

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace feldspar
@@ -33,9 +34,8 @@ struct StudiedEntry
   }
   const StudyEffect* effect_on(const StudyEffect& same) const
   {
-    const auto found = std::find_if(effects.begin(), effects.end(), [&](const StudyEffect& one) {
-      return one.result.name == same.result.name && one.test == same.test;
-    });
+    const auto found = std::ranges::find_if(
+      effects, [&](const StudyEffect& one) { return one.result.name == same.result.name && one.test == same.test; });
     return found == effects.end() ? nullptr : &*found;
   }
 };
@@ -48,11 +48,8 @@ std::vector<StudiedEntry> studied_entries(const std::vector<Series>& all)
   for (const Abscissa& over : abscissas(all))
     entries.push_back({over, effects_of(all, over)});
   // The largest effect on the first result first.
-  std::stable_sort(entries.begin(), entries.end(), [](const StudiedEntry& one, const StudiedEntry& other) {
-    const auto reach = [](const StudiedEntry& entry) {
-      return entry.effects.empty() ? -1.0 : entry.effects.front().reach();
-    };
-    return reach(one) > reach(other);
+  std::ranges::stable_sort(entries, std::greater(), [](const StudiedEntry& entry) {
+    return entry.effects.empty() ? -1.0 : entry.effects.front().reach();
   });
   return entries;
 }
@@ -69,8 +66,8 @@ std::string as_cell(const StudiedEntry& entry, const StudyEffect& effect)
   std::string cell = fmt::format("{} to {}", significant(first, 3), significant(last, 3));
   if (first != 0.0)
     cell += fmt::format(" ({})", text::signed_percent(effect.change()));
-  const auto [least, most] = std::minmax_element(
-    means.begin(), means.end(), [](const auto& one, const auto& other) { return one.second < other.second; });
+  const auto [least, most] =
+    std::ranges::minmax_element(means, [](const auto& one, const auto& other) { return one.second < other.second; });
   for (const auto& extreme : {least, most})
     if (const double beyond =
           extreme == least ? std::min(first, last) - least->second : most->second - std::max(first, last);
@@ -93,7 +90,7 @@ Table effect_table(const std::vector<StudiedEntry>& entries)
       if (!entry.effects.empty())
         table.header.push_back(fmt::format("{}, {}", entry.over.varied.entry, entry.range()));
       for (const StudyEffect& effect : entry.effects)
-        if (std::none_of(rows.begin(), rows.end(), [&](const StudyEffect* one) {
+        if (std::ranges::none_of(rows, [&](const StudyEffect* one) {
               return one->result.name == effect.result.name && one->test == effect.test;
             }))
           rows.push_back(&effect);
@@ -134,7 +131,7 @@ std::string headline_of(const std::vector<StudiedEntry>& entries)
 void move_first(std::vector<Picture>& from, const std::string& beginning, std::vector<Picture>& to)
 {
   const auto found =
-    std::find_if(from.begin(), from.end(), [&](const Picture& picture) { return picture.name.starts_with(beginning); });
+    std::ranges::find_if(from, [&](const Picture& picture) { return picture.name.starts_with(beginning); });
   if (found == from.end())
     return;
   to.push_back(std::move(*found));
@@ -167,11 +164,9 @@ PageSection study_section(const Findings& findings, PictureBook& book)
   block.lead = book.keep(std::move(lead));
   if (!block.warnings.empty() || !block.lead.empty())
     section.blocks.push_back(std::move(block));
-  PageBlock others;
-  others.folded = "Every result over what was varied";
-  others.pictures = book.keep(std::move(pictures));
-  if (!others.pictures.empty())
-    section.blocks.push_back(std::move(others));
+  if (!pictures.empty())
+    section.blocks.push_back(
+      {.folded = "Every result over what was varied", .pictures = book.keep(std::move(pictures))});
   return section;
 }
 } // namespace feldspar

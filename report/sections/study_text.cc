@@ -1,6 +1,7 @@
 #include "report/sections/study_text.h"
 
 #include "base/append.h"
+#include "base/mapped.h"
 #include "report/sections/comparison.h"
 #include "report/sections/text.h"
 #include "results/runs/trust.h"
@@ -24,7 +25,7 @@ struct StudyColumn
 
   bool is_the_same_in_all() const
   {
-    return std::all_of(cells.begin(), cells.end(), [&](const std::string& cell) { return cell == cells.front(); });
+    return std::ranges::all_of(cells, [&](const std::string& cell) { return cell == cells.front(); });
   }
 };
 
@@ -41,8 +42,7 @@ std::vector<StudyColumn> columns(const std::vector<std::vector<ComparisonRow>>& 
       if (row.ours)
         {
           const std::string name = heading(row);
-          auto column =
-            std::find_if(all.begin(), all.end(), [&](const StudyColumn& one) { return one.heading == name; });
+          auto column = std::ranges::find(all, name, &StudyColumn::heading);
           if (column == all.end())
             column = all.insert(all.end(), {name, std::vector<std::string>(of_variants.size(), "-"),
                                             row.experiment ? as_text(row, row.experiment) : ""});
@@ -56,17 +56,13 @@ std::string values_of(const FinishedTest& test)
 {
   if (test.settings.empty())
     return test.variant;
-  std::vector<std::string_view> values;
-  for (const VariantSetting& setting : test.settings)
-    values.push_back(setting.value);
+  const auto values = mapped<std::string_view>(test.settings, &VariantSetting::value);
   return fmt::format("{}", fmt::join(values, ", "));
 }
 
 std::string entries_of(const FinishedTest& test)
 {
-  std::vector<std::string_view> entries;
-  for (const VariantSetting& setting : test.settings)
-    entries.push_back(setting.entry);
+  const auto entries = mapped<std::string_view>(test.settings, &VariantSetting::entry);
   return entries.empty() ? "variant" : fmt::format("{}", fmt::join(entries, ", "));
 }
 } // namespace
@@ -77,9 +73,7 @@ std::string study_as_text(const std::vector<FinishedTest>& tests, const std::opt
   std::vector<std::string> names;
   for (const RockTests& rock : by_rock(tests))
     {
-      std::vector<FinishedTest> of_rock;
-      for (const FinishedTest* const test : rock.tests)
-        of_rock.push_back(*test);
+      const auto of_rock = mapped<FinishedTest>(rock.tests, [](const FinishedTest* const test) { return *test; });
       of_variants.push_back(compare(of_rock, reference, {}, any_has_flaws(tests)));
       names.push_back(values_of(of_rock.front()));
     }

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <string_view>
 #include <vector>
 
 namespace feldspar
@@ -26,9 +25,9 @@ bool has_column(const TestQuantity& quantity, const Findings& findings)
 {
   if (quantity.column != PageColumn::where_given)
     return quantity.column == PageColumn::always;
-  return std::any_of(findings.all.begin(), findings.all.end(), [&](const Series& series) {
-    return std::any_of(series.tests.begin(), series.tests.end(),
-                       [&](const FinishedTest& test) { return value_of(quantity, test).value.has_value(); });
+  return std::ranges::any_of(findings.all, [&](const Series& series) {
+    return std::ranges::any_of(series.tests,
+                               [&](const FinishedTest& test) { return value_of(quantity, test).value.has_value(); });
   });
 }
 } // namespace
@@ -151,18 +150,17 @@ Table specimen_table(const Series& series)
   for (const auto& test : series.tests)
     if (test.record.failure.empty())
       made[test.record.seed].push_back(&test);
-  const bool any_cored = std::any_of(made.begin(), made.end(), [](const auto& of_seed) {
-    return of_seed.second.front()->record.specimen.n_cut_joints > 0;
-  });
+  const bool any_cored = std::ranges::any_of(
+    made, [](const auto& of_seed) { return of_seed.second.front()->record.specimen.n_cut_joints > 0; });
   if (any_cored)
     {
       table.caption += ". Cored: packed without walls, joined, then cut free";
       append(table.header, {"joints cut", "grains removed"});
     }
-  const bool any_cut = std::any_of(made.begin(), made.end(), [](const auto& of_seed) {
+  const bool any_cut = std::ranges::any_of(made, [](const auto& of_seed) {
     const auto n_grains = [](const FinishedTest* test) { return test->record.specimen.n_grains; };
-    return std::any_of(of_seed.second.begin(), of_seed.second.end(),
-                       [&](const FinishedTest* test) { return n_grains(test) != n_grains(of_seed.second.front()); });
+    return std::ranges::any_of(
+      of_seed.second, [&](const FinishedTest* test) { return n_grains(test) != n_grains(of_seed.second.front()); });
   });
   if (any_cut)
     table.caption += ". Some tests cut a body from the specimen; the figures are those of the largest body tested";

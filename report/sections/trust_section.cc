@@ -1,6 +1,7 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
+#include "base/contains.h"
 #include "report/sections/provenance.h"
 #include "report/sections/test_tables.h"
 #include "report/sections/text.h"
@@ -44,8 +45,7 @@ std::vector<PageBlock> evidence(const Findings& findings, const std::size_t n)
     block.paragraphs.push_back("Each row of a curve is an equilibrium, found without time: there is no kinetic "
                                "energy, no wave and no servo to be checked.");
   block.tables.push_back(check_table(series, "trust" + findings.ending_of_files(n)));
-  if (std::any_of(series.tests.begin(), series.tests.end(),
-                  [](const FinishedTest& test) { return test.record.specimen.n_grains > 0; }))
+  if (std::ranges::any_of(series.tests, [](const FinishedTest& test) { return test.record.specimen.n_grains > 0; }))
     {
       Table specimens = specimen_table(series);
       specimens.name += findings.ending_of_files(n);
@@ -62,10 +62,7 @@ std::vector<PageBlock> evidence(const Findings& findings, const std::size_t n)
       block.paragraphs.push_back(fmt::format("Its input is that of {}.", first.label));
       return {block};
     }
-  PageBlock folded;
-  folded.folded = findings.titled("Input", series);
-  folded.tables.push_back(std::move(input));
-  return {block, folded};
+  return {block, {.folded = findings.titled("Input", series), .tables = {std::move(input)}}};
 }
 
 /// The worst value of every measure, a row a series.
@@ -75,7 +72,7 @@ Table checks_of_many(const Findings& findings)
   std::vector<std::string_view> measures;
   for (const auto& series : findings.all)
     for (const auto& check : trust_checks(series))
-      if (std::find(measures.begin(), measures.end(), check.measure.name) == measures.end())
+      if (!contains(measures, check.measure.name))
         {
           measures.push_back(check.measure.name);
           table.header.push_back(fmt::format("{}, {}", check.measure.title, check.measure.bound_text()));
@@ -85,7 +82,7 @@ Table checks_of_many(const Findings& findings)
       std::vector<std::string> row(1 + measures.size(), text::none);
       row.front() = series.label;
       for (const auto& check : trust_checks(series))
-        row[1 + std::size_t(std::find(measures.begin(), measures.end(), check.measure.name) - measures.begin())] =
+        row[1 + std::size_t(std::ranges::find(measures, check.measure.name) - measures.begin())] =
           (check.n_out > 0 ? "✗ " : "") + check.measure.text(check.worst);
       if (series.kind != SeriesKind::laboratory_curve)
         table.rows.push_back(std::move(row));
@@ -96,13 +93,10 @@ Table checks_of_many(const Findings& findings)
 /// The same evidence with a row a series; its own tables of each are files.
 std::vector<PageBlock> evidence_of_many(const Findings& findings)
 {
-  PageBlock block;
-  block.paragraphs.push_back(
-    fmt::format("Means over the tests, specimens and input of each series are in {}/ (trust_*, "
-                "specimens_*, input_*).",
-                result_file::tables));
-  block.tables.push_back(checks_of_many(findings));
-  PageBlock inputs;
+  PageBlock block{.paragraphs = {fmt::format("Means over the tests, specimens and input of each series are in {}/ "
+                                             "(trust_*, specimens_*, input_*).",
+                                             result_file::tables)},
+                  .tables = {checks_of_many(findings)}};
   const Series& first = findings.all.front();
   Table differences{"inputs",
                     fmt::format("Input where it differs from that of {}", first.label),
@@ -123,10 +117,10 @@ std::vector<PageBlock> evidence_of_many(const Findings& findings)
           differences.rows.push_back(std::move(row));
         }
     }
-  inputs.folded = "Input";
-  inputs.paragraphs.push_back(sentence_of(first.made_by));
-  inputs.tables = {input_table(first.made_by, "input" + findings.ending_of_files(0)), std::move(differences)};
-  return {block, inputs};
+  return {block,
+          {.folded = "Input",
+           .paragraphs = {sentence_of(first.made_by)},
+           .tables = {input_table(first.made_by, "input" + findings.ending_of_files(0)), std::move(differences)}}};
 }
 } // namespace
 
@@ -138,10 +132,7 @@ PageSection trust_section(const Findings& findings)
   else
     for (std::size_t n = 0; n < findings.all.size(); ++n)
       append(section.blocks, evidence(findings, n));
-  PageBlock tests;
-  tests.folded = "Every test";
-  tests.tables = {strength_table(findings), test_table(findings)};
-  section.blocks.push_back(tests);
+  section.blocks.push_back({.folded = "Every test", .tables = {strength_table(findings), test_table(findings)}});
   return section;
 }
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #include "report/sections/verdict.h"
 
+#include "base/mapped.h"
 #include "report/sections/text.h"
 
 #include <fmt/format.h>
@@ -66,9 +67,7 @@ Tile tile_of(const ComparisonRow& row)
 
 std::string subject(const std::vector<const ComparisonRow*>& rows, const char* const singular, const char* const plural)
 {
-  std::vector<std::string> properties;
-  for (const ComparisonRow* row : rows)
-    properties.push_back(row->property);
+  const auto properties = mapped<std::string>(rows, [&](const ComparisonRow* row) { return row->property; });
   return subject_of(properties, singular, plural);
 }
 } // namespace

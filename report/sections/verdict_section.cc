@@ -67,8 +67,8 @@ std::vector<PageBlock> verdict_of_many(const Findings& findings)
         if (check.n_out > 0)
           measures_out.emplace_back(check.measure.name);
       n_warned += !measures_out.empty();
-      const auto n_made = std::count_if(series.tests.begin(), series.tests.end(),
-                                        [](const FinishedTest& test) { return test.record.failure.empty(); });
+      const auto n_made =
+        std::ranges::count_if(series.tests, [](const FinishedTest& test) { return test.record.failure.empty(); });
       table.rows.push_back({series.label, fmt::format("{}", n_made), fmt::format("{}", series.tests.size()),
                             is_compared ? fmt::format("{}", n_in) : text::none,
                             is_compared ? count_and_names(out) : text::none, count_and_names(measures_out),
@@ -88,10 +88,7 @@ std::vector<PageBlock> verdict_of_many(const Findings& findings)
                 "warnings on each series are in {} of its run (verdict).",
                 n_warned, n_models, result_file::summary));
   block.warnings = grouped_warnings(findings.all);
-  PageBlock every;
-  every.folded = "Every series";
-  every.tables = {std::move(table), comparison_of_many(findings)};
-  return {block, every};
+  return {block, {.folded = "Every series", .tables = {std::move(table), comparison_of_many(findings)}}};
 }
 } // namespace
 
@@ -105,8 +102,8 @@ PageSection verdict_section(const Findings& findings)
     section.blocks = verdict_of_many(findings);
   // A problem that keeps all models from being compared is said once: for one model in its headline, for several below
   // them.
-  const auto n_models = std::count_if(findings.all.begin(), findings.all.end(),
-                                      [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
+  const auto n_models = std::ranges::count_if(
+    findings.all, [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
   const bool is_problem_below = !findings.reference_problem.empty() && n_models != 1;
   SharedWarnings shared;
   if (findings.is_study() || findings.has_many())
@@ -134,7 +131,7 @@ PageSection verdict_section(const Findings& findings)
               fmt::format("Made on a sample of finite elements{}, and evaluated as tests on specimens of grains are.",
                           material_at_points(findings.all[n].made_by)));
           const bool is_compared =
-            std::any_of(found.tiles.begin(), found.tiles.end(), [](const Tile& tile) { return !tile.notes.empty(); });
+            std::ranges::any_of(found.tiles, [](const Tile& tile) { return !tile.notes.empty(); });
           if (!is_problem_below && is_compared)
             block.headline = found.headline;
           else if (!is_problem_below)
@@ -149,12 +146,7 @@ PageSection verdict_section(const Findings& findings)
         section.blocks.push_back(block);
     }
   if (!findings.has_many() && !shared.of_all.empty())
-    {
-      PageBlock of_all;
-      of_all.subheading = "All models";
-      of_all.warnings = shared.of_all;
-      section.blocks.push_back(of_all);
-    }
+    section.blocks.push_back({.subheading = "All models", .warnings = shared.of_all});
   PageBlock remarks, table;
   if (!findings.has_many())
     table.folded = "Every property of model and rock";

@@ -13,10 +13,7 @@ constexpr const char* no_crack = "no crack before the peak";
 /// Row at which the volume is smallest, if it grows again before the peak.
 std::optional<std::size_t> most_contracted_row(const RisingBranch& branch)
 {
-  const auto row =
-    std::min_element(branch.rows.begin(), branch.rows.end(), [](const CurveSample& a, const CurveSample& b) {
-      return a.gauge_volumetric_strain < b.gauge_volumetric_strain;
-    });
+  const auto row = std::ranges::min_element(branch.rows, {}, &CurveSample::gauge_volumetric_strain);
   if (row == branch.rows.begin() || row + 1 == branch.rows.end())
     return std::nullopt;
   return std::size_t(row - branch.rows.begin());
@@ -58,7 +55,7 @@ Figure initiation_before_damage(const RisingBranch& branch, const Value& value, 
 double n_smooth_cracks(const RisingBranch& branch, const CrackKind kind)
 {
   const auto& cracks = branch.record.cracks;
-  return double(std::count_if(cracks.begin(), cracks.end(), [&](const Crack& crack) {
+  return double(std::ranges::count_if(cracks, [&](const Crack& crack) {
     return crack.on_smooth_joint && crack.kind == kind && crack.step <= branch.at_peak().step;
   }));
 }
@@ -172,8 +169,8 @@ Figure first_cracks_at_pads_share(const RisingBranch& branch)
   constexpr std::ptrdiff_t share_of_first = 3;
   constexpr std::ptrdiff_t fewest = 8; // of a brittle disc some of them come after its peak
   const auto& cracks = branch.record.cracks;
-  const auto up_to_peak = std::count_if(cracks.begin(), cracks.end(),
-                                        [&](const Crack& crack) { return crack.step <= branch.at_peak().step; });
+  const auto up_to_peak =
+    std::ranges::count_if(cracks, [&](const Crack& crack) { return crack.step <= branch.at_peak().step; });
   const auto n = std::min(std::ptrdiff_t(cracks.size()), std::max(fewest, up_to_peak / share_of_first));
   if (n == 0)
     return unknown("no crack");

@@ -17,7 +17,7 @@ Figure slope_of(const TestRecord& record, const StageRecord& stage)
     }
   if (strain.size() < 3)
     return {std::nullopt, "fewer than three rows of the curve in the stage: choose a smaller sampling strain"};
-  const auto [low, high] = std::minmax_element(strain.begin(), strain.end());
+  const auto [low, high] = std::ranges::minmax_element(strain);
   if (*low == *high)
     return {std::nullopt, "the platens stand still"};
   return {paired_moments(strain, stress).slope(), ""};

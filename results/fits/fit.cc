@@ -22,12 +22,12 @@ bool has_less_confinement(const PointResidual& a, const PointResidual& b) { retu
 
 double FitQuality::lowest_sigma_3() const
 {
-  return std::min_element(residuals.begin(), residuals.end(), has_less_confinement)->point.sigma_3;
+  return std::ranges::min_element(residuals, has_less_confinement)->point.sigma_3;
 }
 
 double FitQuality::highest_sigma_3() const
 {
-  return std::max_element(residuals.begin(), residuals.end(), has_less_confinement)->point.sigma_3;
+  return std::ranges::max_element(residuals, has_less_confinement)->point.sigma_3;
 }
 
 FitQuality quality(const std::vector<EnvelopePoint>& points, const std::vector<double>& fitted_sigma_1,

@@ -9,17 +9,8 @@ namespace feldspar
 /// The name of a form as readers see it, by the parameters that are free; a rock need have no paper.
 inline std::string title(const HoekBrownForm form)
 {
-  switch (form)
-    {
-    case HoekBrownForm::as_paper:
-      return "s and a free";
-    case HoekBrownForm::intact:
-      return "intact";
-    case HoekBrownForm::regressed:
-      return "intact, regression"; // of (σ_1 - σ_3)²
-    default:
-      return "a free";
-    }
+  constexpr const char* titles[] = {"s and a free", "intact", "a free", "intact, regression"}; // by their enumerators
+  return titles[std::size_t(form)];
 }
 
 /// The same by the name of an envelope in result files.

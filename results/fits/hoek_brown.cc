@@ -1,5 +1,7 @@
 #include "results/fits/hoek_brown.h"
 
+#include "base/contains.h"
+#include "base/mapped.h"
 #include "base/prefixes.h"
 
 #include <ceres/autodiff_cost_function.h>
@@ -100,9 +102,8 @@ bool is_on(const double bound, const double value)
 template <int n>
 std::vector<std::array<double, n>> starting_points(const Task& task, const std::vector<EnvelopePoint>& points)
 {
-  const auto lowest = *std::min_element(points.begin(), points.end(), [](const auto& one, const auto& other) {
-    return std::abs(one.sigma_3) < std::abs(other.sigma_3);
-  });
+  const auto lowest = *std::ranges::min_element(
+    points, [](const auto& one, const auto& other) { return std::abs(one.sigma_3) < std::abs(other.sigma_3); });
   const double strength = std::max(lowest.sigma_1 - lowest.sigma_3, 1e-3);
   const double through_tension = std::min(-task.reference / strength, 0.9);
   std::vector<std::array<double, n>> starts;
@@ -232,7 +233,7 @@ FitOrReason<HoekBrownFit> fit(const Task& task, const std::vector<EnvelopePoint>
   for (int i = 0; i < n; ++i)
     {
       variables[std::size_t(i)] = Jet((*x)[std::size_t(i)], i);
-      if (std::find(held.begin(), held.end(), i) == held.end())
+      if (!contains(held, i))
         free.push_back(i);
     }
   const auto at_optimum = envelope(task, variables.data());
@@ -287,18 +288,8 @@ FitOrReason<HoekBrownFit> fit(const Task& task, const std::vector<EnvelopePoint>
 
 std::string name(const HoekBrownForm form)
 {
-  switch (form)
-    {
-    case HoekBrownForm::as_paper:
-      return "as_paper";
-    case HoekBrownForm::intact:
-      return "intact";
-    case HoekBrownForm::general:
-      return "general";
-    case HoekBrownForm::regressed:
-      return "intact_by_regression";
-    }
-  return "";
+  constexpr std::array names{"as_paper", "intact", "general", "intact_by_regression"}; // by their enumerators
+  return names[std::size_t(form)];
 }
 
 double hoek_brown_sigma_1(const double sigma_3, const double sigma_ci, const double m, const double s, const double a)
@@ -391,10 +382,8 @@ FitOrReason<HoekBrownFit> regress_hoek_brown(const StrengthData& data)
   fit.s = {1.0, {std::nullopt, "it is 1 by definition"}};
   fit.a = {0.5, {std::nullopt, "it is 0.5 by definition"}};
   fit.tensile_cut_off = {-line[1] / slope * mega, in_pascal(half_width[2])};
-  std::vector<double> fitted;
-  for (const auto& point : data.points)
-    fitted.push_back(fit.sigma_1(point.sigma_3));
-  if (std::any_of(fitted.begin(), fitted.end(), [](const double sigma_1) { return std::isnan(sigma_1); }))
+  const auto fitted = mapped<double>(data.points, [&](const auto& point) { return fit.sigma_1(point.sigma_3); });
+  if (std::ranges::any_of(fitted, [](const double sigma_1) { return std::isnan(sigma_1); }))
     return {std::nullopt, "a point lies beyond the tensile cut-off of the regression"};
   fit.quality = quality(data.points, fitted, n_parameters);
   return {fit, ""};
@@ -410,8 +399,8 @@ RockMassConstants rock_mass_constants(const double m_i, const double strength_in
 std::optional<double> rock_constant(const std::vector<EnvelopePoint>& in_compression)
 {
   const auto is_confined = [](const EnvelopePoint& point) { return point.sigma_3 > 0.0; };
-  const auto uniaxial = std::find_if_not(in_compression.begin(), in_compression.end(), is_confined);
-  if (uniaxial == in_compression.end() || std::none_of(in_compression.begin(), in_compression.end(), is_confined))
+  const auto uniaxial = std::ranges::find_if_not(in_compression, is_confined);
+  if (uniaxial == in_compression.end() || std::ranges::none_of(in_compression, is_confined))
     return std::nullopt;
   const auto answer = fit_hoek_brown({in_compression, uniaxial->sigma_1, std::nullopt}, HoekBrownForm::intact, false);
   // No curve goes through a confined strength that exceeds the uniaxial one by its pressure or less.

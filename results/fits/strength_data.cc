@@ -16,26 +16,16 @@ StrengthData strength_data(const std::vector<FinishedTest>& tests, const std::op
     if (test.results.peak_stress.value && test.results.is_valid() && (!variant || test.variant == *variant))
       {
         const double strength = *test.results.peak_stress.value;
-        switch (test.record.envelope_role())
-          {
-          case EnvelopeRole::tension:
-            direct.push_back(strength);
-            break;
-          case EnvelopeRole::indirect_tension:
-            indirect.push_back(strength);
-            break;
-          case EnvelopeRole::compression:
-            by_confinement[test.record.confining_pressure].push_back(strength);
-            break;
-          case EnvelopeRole::none:
-            break;
-          }
+        const EnvelopeRole role = test.record.envelope_role();
+        if (role == EnvelopeRole::compression)
+          by_confinement[test.record.confining_pressure].push_back(strength);
+        else if (role != EnvelopeRole::none)
+          (role == EnvelopeRole::tension ? direct : indirect).push_back(strength);
       }
 
   StrengthData data;
-  data.of_flawed_body = std::any_of(tests.begin(), tests.end(), [&](const FinishedTest& test) {
-    return test.has_flaws() && (!variant || test.variant == *variant);
-  });
+  data.of_flawed_body = std::ranges::any_of(
+    tests, [&](const FinishedTest& test) { return test.has_flaws() && (!variant || test.variant == *variant); });
   for (const auto& [sigma_3, strengths] : by_confinement)
     data.points.push_back({sigma_3, statistics(strengths)->mean});
   if (by_confinement.contains(0.0))

@@ -265,8 +265,8 @@ std::string remark(const StrengthEnvelopes& envelopes)
     (envelopes.data.tension_is_indirect ? "The tensile strength is that of Brazilian tests, for want of direct ones. "
                                         : "") +
     "Admissible is s <= 1: with s > 1 the rock would be stronger than intact." + remark_on_intact_form(envelopes);
-  const auto with_free_s = std::find_if(envelopes.hoek_brown.begin(), envelopes.hoek_brown.end(),
-                                        [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });
+  const auto with_free_s =
+    std::ranges::find_if(envelopes.hoek_brown, [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });
   const auto& measured = envelopes.data.uniaxial_compressive_strength;
   if (with_free_s == envelopes.hoek_brown.end() || !with_free_s->with_tension_point.fit || !measured)
     return result;

@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/json_text.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "base/table/csv.h"
@@ -9,7 +10,6 @@
 #include "laboratory/named_entries.h"
 #include "results/folder/provenance_json.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -52,10 +52,8 @@ TargetMean mean_of(const CalibrationRecord::TargetRow& row)
 /// Verdicts, and the statement, of a file that has none.
 void judge(CalibrationRecord& record)
 {
-  std::vector<TargetMean> means;
-  for (const auto& row : record.targets)
-    means.push_back(mean_of(row));
-  const bool was_tested = std::any_of(means.begin(), means.end(), [](const TargetMean& mean) { return mean.n > 0; });
+  const auto means = mapped<TargetMean>(record.targets, [&](const auto& row) { return mean_of(row); });
+  const bool was_tested = std::ranges::any_of(means, [](const TargetMean& mean) { return mean.n > 0; });
   std::vector<TargetVerdict> verdicts;
   for (std::size_t t = 0; t < means.size(); ++t)
     {
@@ -74,8 +72,7 @@ TargetVerdict verdict(const Json& json, const std::string& file)
   const std::string given = json.at("verdict").get<std::string>();
   if (const auto found = verdict_of_name(given))
     return *found;
-  throw InputError(
-    fmt::format("{}: the verdict {} is none of reached, missed and not_decided", file, in_quotes(given)));
+  throw InputError("{}: the verdict {} is none of reached, missed and not_decided", file, in_quotes(given));
 }
 
 CalibrationRecord from_json(const Json& json, const std::string& file)
@@ -137,10 +134,9 @@ std::optional<CalibrationRecord> read_calibration(const std::filesystem::path& f
     }
   catch (const Json::exception&)
     {
-      throw InputError(fmt::format("{}: not as {} writes it", file.string(), input_entries::calibrate));
+      throw InputError("{}: not as {} writes it", file.string(), input_entries::calibrate);
     }
-  if (std::any_of(record.parameters.begin(), record.parameters.end(),
-                  [](const auto& parameter) { return parameter.median.has_value(); }))
+  if (std::ranges::any_of(record.parameters, [](const auto& parameter) { return parameter.median.has_value(); }))
     read_samples(record, folder / "posterior.csv");
   return record;
 }

@@ -10,12 +10,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace feldspar
@@ -232,7 +230,7 @@ TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::strin
 void write_events(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
 {
   std::filesystem::remove(file); // of a run before
-  if (std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.record.events.empty(); }))
+  if (std::ranges::all_of(tests, [](const FinishedTest& test) { return test.record.events.empty(); }))
     return;
   std::string text;
   append_names(text, emission_columns);

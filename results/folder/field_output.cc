@@ -1,5 +1,6 @@
 #include "results/folder/field_output.h"
 
+#include "base/mapped.h"
 #include "results/folder/table_columns.h"
 #include "results/folder/vtk_data.h"
 
@@ -8,8 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <vector>
 
 namespace feldspar
 {
@@ -30,10 +29,8 @@ Points places(const Snapshot& snapshot)
 void add_numbers(VtkData& data, const std::string& name, const std::vector<GrainPicture>& grains,
                  std::uint32_t GrainPicture::*const number)
 {
-  std::vector<std::uint32_t> numbers;
-  for (const auto& grain : grains)
-    numbers.push_back(grain.*number);
-  if (std::any_of(numbers.begin(), numbers.end(), [](const std::uint32_t one) { return one != 0; }))
+  const auto numbers = mapped<std::uint32_t>(grains, [&](const auto& grain) { return grain.*number; });
+  if (std::ranges::any_of(numbers, [](const std::uint32_t one) { return one != 0; }))
     data.count(name, numbers);
 }
 
@@ -45,9 +42,7 @@ VtkData grains_at(const Snapshot& snapshot, const Points& start, const std::vect
   for (std::size_t i = 0; i < now.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
       displacement[i][c] -= start[i][c];
-  std::vector<double> radius;
-  for (const auto& grain : grains)
-    radius.push_back(grain.radius);
+  const auto radius = mapped<double>(grains, [](const auto& grain) { return grain.radius; });
   VtkData data(now, VtkData::Cells::points);
   data.scalar("radius_m", radius);
   data.vector("displacement_m", displacement);
@@ -99,8 +94,7 @@ void add_face(Points& corners, const Crack& crack, const bool in_space)
 template <typename Row>
 auto end_at(const Snapshot& snapshot, const std::vector<Row>& all)
 {
-  return std::upper_bound(all.begin(), all.end(), snapshot.step,
-                          [](const std::uint64_t step, const Row& row) { return step < row.step; });
+  return std::ranges::upper_bound(all, snapshot.step, {}, &Row::step);
 }
 
 VtkData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all, const bool in_space)
@@ -144,9 +138,9 @@ VtkData events_until(const Snapshot& snapshot, const std::vector<EmissionEvent>&
   VtkData data(centroids, VtkData::Cells::points);
   for (const Column<EmissionRow>& column : emission_columns)
     {
-      std::vector<double> values;
-      for (const EmissionRow& row : rows)
-        values.push_back(column.get(row) * (column.is(positive_in_test) ? kind.sign : 1.0));
+      const auto values = mapped<double>(rows, [&](const EmissionRow& row) {
+        return column.get(row) * (column.is(positive_in_test) ? kind.sign : 1.0);
+      });
       if (column.most > 0.0)
         data.count(std::string(column.name), {values.begin(), values.end()});
       else

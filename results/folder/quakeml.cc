@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <regex>
 #include <sstream>
@@ -116,26 +115,22 @@ QuakemlOrigin parse_quakeml_origin(const std::string_view text)
 {
   static const std::regex form("([0-9.]+) ([NS]), *([0-9.]+) ([EW]), *([^,]+), *([0-9-]+T[0-9:]+Z)");
   const auto refusal = [](const std::string_view reason) {
-    return InputError(
-      fmt::format("--quakeml must be latitude, longitude, depth and time of the origin of the axes, as in "
-                  "\"41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z\": {}",
-                  reason));
+    return InputError("--quakeml must be latitude, longitude, depth and time of the origin of the axes, as in "
+                      "\"41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z\": {}",
+                      reason);
   };
   const std::string given(text);
   std::smatch part;
   if (!std::regex_match(given, part, form))
     throw refusal("found is " + in_quotes(text));
   QuakemlOrigin origin{};
-  try
-    {
+  rephrased(
+    [&] {
       origin.latitude = (part[2] == "N" ? 1.0 : -1.0) * parse_number(part[1].str());
       origin.longitude = (part[4] == "E" ? 1.0 : -1.0) * parse_number(part[3].str());
       origin.depth = parse_quantity(part[5].str(), length);
-    }
-  catch (const InputError& error)
-    {
-      throw refusal(error.what());
-    }
+    },
+    refusal);
   if (std::abs(origin.latitude) > 89.0 || std::abs(origin.longitude) > 180.0)
     throw refusal("the latitude must be at most 89 and the longitude at most 180 degrees");
   std::tm time{};
@@ -158,9 +153,8 @@ void write_quakeml(const std::vector<Series>& all, const QuakemlOrigin& origin, 
         const std::vector<EmissionEvent>& events = test.record.events;
         if (events.empty())
           continue;
-        if (std::any_of(events.begin(), events.end(), [](const auto& one) { return !(std::abs(one.time) < longest); }))
-          throw InputError(
-            fmt::format("--quakeml: an event of {} has no time up to {:g} s; samples have none", test.name, longest));
+        if (std::ranges::any_of(events, [](const auto& one) { return !(std::abs(one.time) < longest); }))
+          throw InputError("--quakeml: an event of {} has no time up to {:g} s; samples have none", test.name, longest);
         pugi::xml_document document;
         pugi::xml_node root = document.append_child("q:quakeml");
         root.append_attribute("xmlns:q") = "http://quakeml.org/xmlns/quakeml/1.2";

@@ -2,10 +2,12 @@
 
 #include "base/prefixes.h"
 
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/json_text.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
+#include "base/text.h"
 #include "results/fits/hoek_brown.h"
 #include "results/quantities.h"
 #include "results/statistics.h"
@@ -15,9 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -50,11 +50,9 @@ std::optional<double> pressure_in(const std::string_view name, const std::string
 {
   if (name.size() < beginning.size() + ending.size() || !name.starts_with(beginning) || !name.ends_with(ending))
     return std::nullopt;
-  double pressure = 0.0;
-  const char* const last = name.data() + name.size() - ending.size();
-  const auto [end, error] = std::from_chars(name.data() + beginning.size(), last, pressure);
-  const bool is_pressure = error == std::errc() && end == last && pressure > 0.0 && std::isfinite(pressure);
-  return is_pressure ? std::optional(pressure) : std::nullopt;
+  const auto pressure =
+    number_in<double>(name.substr(beginning.size(), name.size() - beginning.size() - ending.size()));
+  return pressure && *pressure > 0.0 && std::isfinite(*pressure) ? pressure : std::nullopt;
 }
 
 /// True triaxial strengths: triaxial_compression_5_MPa_intermediate_20_MPa_strength_MPa.
@@ -83,7 +81,7 @@ std::optional<Property> property_of(const std::string_view name, const std::vect
       return Property{one.key, one.least, one.most};
   if (pressure_in(name, "strength_at_", "_MPa") || is_true_triaxial(name))
     return confined_strength;
-  if (std::any_of(kinds.begin(), kinds.end(), [&](const TestKind& kind) { return is_strength_of(kind, name); }))
+  if (std::ranges::any_of(kinds, [&](const TestKind& kind) { return is_strength_of(kind, name); }))
     return other_strength;
   return std::nullopt;
 }
@@ -117,7 +115,7 @@ struct Place
 
   [[noreturn]] void refuse(const std::string& problem) const
   {
-    throw InputError(fmt::format("{}: {}{}{}", file, path, path.empty() ? "" : ": ", problem));
+    throw InputError("{}: {}{}{}", file, path, path.empty() ? "" : ": ", problem);
   }
 };
 
@@ -127,7 +125,7 @@ void expect_object(const Json& json, const std::vector<std::string_view>& known,
   if (!json.is_object())
     place.refuse(fmt::format("must be an object of {}", fmt::join(known, ", ")));
   for (const auto& [name, value] : json.items())
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (!contains(known, name))
       (place / name).refuse(fmt::format("no such key; there are {}", fmt::join(known, ", ")));
 }
 
@@ -271,8 +269,7 @@ void add_triaxial(ReferenceSource& source, const Json& json, const Place& place)
         at.refuse("strength_MPa is sigma_1, which lies above the confining pressure");
       source.triaxial.push_back(point);
     }
-  std::stable_sort(source.triaxial.begin(), source.triaxial.end(),
-                   [](const EnvelopePoint& a, const EnvelopePoint& b) { return a.sigma_3 < b.sigma_3; });
+  std::ranges::stable_sort(source.triaxial, {}, &EnvelopePoint::sigma_3);
 }
 
 /// Fewest tests for a range. From two, the range in which 95 % of further tests would lie holds nearly every rock.
@@ -406,13 +403,12 @@ std::vector<EnvelopePoint> ReferenceSource::strengths() const
   const auto singles = points;
   for (const auto& [name, value] : values)
     if (const auto pressure = pressure_in(name, "strength_at_", "_MPa"))
-      if (const bool has_singles = std::any_of(
-            singles.begin(), singles.end(),
+      if (const bool has_singles = std::ranges::any_of(
+            singles,
             [&, wanted = name](const EnvelopePoint& point) { return key_of_strength(point.sigma_3) == wanted; });
           value.mean && !has_singles)
         points.push_back({*pressure * mega, *value.mean * mega});
-  std::stable_sort(points.begin(), points.end(),
-                   [](const EnvelopePoint& a, const EnvelopePoint& b) { return a.sigma_3 < b.sigma_3; });
+  std::ranges::stable_sort(points, {}, &EnvelopePoint::sigma_3);
   return points;
 }
 

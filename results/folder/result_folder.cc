@@ -3,6 +3,7 @@
 #include "base/colour.h"
 #include "base/input_error.h"
 #include "base/json_text.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "results/folder/csv_tables.h"
@@ -33,7 +34,7 @@ constexpr std::size_t most_characters_of_name = 180; ///< of a test; pictures ad
 
 std::optional<TestKind> kind_named(const std::string_view wanted, const std::vector<TestKind>& known)
 {
-  const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind& one) { return one.name == wanted; });
+  const auto kind = std::ranges::find(known, wanted, &TestKind::name);
   return kind == known.end() ? std::nullopt : std::optional(*kind);
 }
 
@@ -41,10 +42,10 @@ Json read_summary(const std::filesystem::path& folder)
 {
   const std::filesystem::path file = folder / result_file::summary;
   if (!std::filesystem::exists(file))
-    throw InputError(fmt::format("{}: no result folder: there is no {} in it", folder.string(), result_file::summary));
+    throw InputError("{}: no result folder: there is no {} in it", folder.string(), result_file::summary);
   Json json = parse_json(file.string(), content_of(file));
   if (!json.contains("tests") || !json["tests"].is_array())
-    throw InputError(fmt::format("{}: there is no list of \"tests\" in it", file.string()));
+    throw InputError("{}: there is no list of \"tests\" in it", file.string());
   return json;
 }
 
@@ -68,86 +69,70 @@ std::vector<FlawPicture> flaws_of(const Json& json)
   return flaws;
 }
 
-/// Stages of a test that follows a loading table; none where a member is missing.
+/// A member as `read` makes it; `otherwise` where it is not there, or one of its own members is missing.
+template <typename T, typename Read>
+T member_or(const Json& json, const char* const key, const T& otherwise, const Read& read)
+{
+  try
+    {
+      return json.contains(key) ? T(read(json[key])) : otherwise;
+    }
+  catch (const Json::exception&)
+    {
+      return otherwise;
+    }
+}
+
+/// Stages of a test that follows a loading table.
 std::vector<StageRecord> stages_of(const Json& json)
 {
-  std::vector<StageRecord> stages;
-  if (const auto all = json.find("stages"); all != json.end() && all->is_array())
-    for (const Json& one : *all)
-      try
-        {
-          stages.push_back({one.at("target").get<std::string>(), one.at("confining_pressure_Pa").get<double>(),
-                            one.at("first_row").get<std::uint64_t>(), one.at("last_row").get<std::uint64_t>(),
-                            one.at("reached").get<bool>()});
-        }
-      catch (const Json::exception&)
-        {
-          return {};
-        }
-  return stages;
+  return member_or(json, "stages", std::vector<StageRecord>(), [](const Json& all) {
+    return mapped<StageRecord>(all.is_array() ? all : Json::array(), [](const Json& one) {
+      return StageRecord{one.at("target").get<std::string>(), one.at("confining_pressure_Pa").get<double>(),
+                         one.at("first_row").get<std::uint64_t>(), one.at("last_row").get<std::uint64_t>(),
+                         one.at("reached").get<bool>()};
+    });
+  });
 }
 
-/// Minerals of the rock; none where a member is missing or is none of a mineral.
+/// Minerals of the rock; none where one is none of a mineral.
 std::vector<MineralShare> minerals_of(const Json& json)
 {
-  std::vector<MineralShare> minerals;
-  if (const auto all = json.find("minerals"); all != json.end() && all->is_array())
-    for (const Json& one : *all)
-      try
-        {
-          const auto name = one.at("name").get<std::string>();
-          const auto colour = parse_colour(one.at("colour").get<std::string>());
-          if (!is_plain_name(name) || !colour)
-            return {};
-          minerals.push_back({{name, *colour}, one.at("n_grains").get<std::uint64_t>(), one.at("share").get<double>()});
-        }
-      catch (const Json::exception&)
-        {
-          return {};
-        }
-  return minerals;
+  return member_or(json, "minerals", std::vector<MineralShare>(), [](const Json& all) {
+    std::vector<MineralShare> minerals;
+    for (const Json& one : all.is_array() ? all : Json::array())
+      {
+        const auto name = one.at("name").get<std::string>();
+        const auto colour = parse_colour(one.at("colour").get<std::string>());
+        if (!is_plain_name(name) || !colour)
+          return std::vector<MineralShare>();
+        minerals.push_back({{name, *colour}, one.at("n_grains").get<std::uint64_t>(), one.at("share").get<double>()});
+      }
+    return minerals;
+  });
 }
 
-/// Notch of the body of a test; none where a member is missing. Layouts from before lengths were written have none of
-/// them.
+/// Notch of the body of a test. Layouts from before lengths were written have none of them.
 std::optional<NotchGeometry> notch_of(const Json& json)
 {
-  const auto notch = json.find("notch");
-  if (notch == json.end())
-    return std::nullopt;
-  try
-    {
-      return NotchGeometry{.intensity_over_stress = notch->at("intensity_over_stress_sqrt_m").get<double>(),
-                           .work_over_stress = notch->at("work_over_stress_m3").get<double>(),
-                           .ligament_area = notch->at("ligament_area_m2").get<double>(),
-                           .ligament_length =
-                             notch->value("ligament_length_m", std::numeric_limits<double>::quiet_NaN()),
-                           .is_valid = notch->at("is_valid").get<bool>()};
-    }
-  catch (const Json::exception&)
-    {
-      return std::nullopt;
-    }
+  return member_or(json, "notch", std::optional<NotchGeometry>(), [](const Json& notch) {
+    return NotchGeometry{.intensity_over_stress = notch.at("intensity_over_stress_sqrt_m").get<double>(),
+                         .work_over_stress = notch.at("work_over_stress_m3").get<double>(),
+                         .ligament_area = notch.at("ligament_area_m2").get<double>(),
+                         .ligament_length = notch.value("ligament_length_m", std::numeric_limits<double>::quiet_NaN()),
+                         .is_valid = notch.at("is_valid").get<bool>()};
+  });
 }
 
-/// Demands on the peak of a test; the defaults in layouts from before demands were written, or where a member is
-/// missing.
+/// Demands on the peak of a test; the defaults in layouts from before demands were written.
 PeakDemands peak_demands_of(const Json& json)
 {
-  const auto demands = json.find("peak_demands");
-  if (demands == json.end())
-    return {};
-  try
-    {
-      return {.least_stress = demands->at("least_stress_Pa").get<double>(),
-              .least_time = demands->at("least_time_s").get<double>(),
-              .least_fall = demands->at("least_fall").get<double>(),
-              .end_over_peak_strain = demands->at("end_over_peak_strain").get<double>()};
-    }
-  catch (const Json::exception&)
-    {
-      return {};
-    }
+  return member_or(json, "peak_demands", PeakDemands(), [](const Json& demands) {
+    return PeakDemands{.least_stress = demands.at("least_stress_Pa").get<double>(),
+                       .least_time = demands.at("least_time_s").get<double>(),
+                       .least_fall = demands.at("least_fall").get<double>(),
+                       .end_over_peak_strain = demands.at("end_over_peak_strain").get<double>()};
+  });
 }
 
 FinishedTest test_of(const Json& json, const TestKind& kind)
@@ -170,17 +155,17 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
     for (std::size_t c = 0; c < std::min<std::size_t>(size->size(), 3); ++c)
       if ((*size)[c].is_number())
         test.record.size[c] = (*size)[c].get<double>();
-  if (const auto stress = json.find("intermediate_stress_Pa"); stress != json.end() && stress->is_number())
-    test.record.intermediate_stress = stress->get<double>();
-  if (const auto stiffness = json.find("normal_stiffness_Pa_per_m"); stiffness != json.end() && stiffness->is_number())
-    test.record.normal_stiffness = stiffness->get<double>();
+  const auto number = [&](const char* const key, const std::optional<double>& otherwise) {
+    return member_or(json, key, otherwise, [](const Json& value) { return value.get<double>(); });
+  };
+  test.record.intermediate_stress = number("intermediate_stress_Pa", {});
+  test.record.normal_stiffness = number("normal_stiffness_Pa_per_m", {});
   test.appearance.flaws = flaws_of(json);
   test.record.stages = stages_of(json);
   test.record.notch = notch_of(json);
   test.record.minerals = minerals_of(json);
   test.record.peak_demands = peak_demands_of(json);
-  if (const auto way = json.find("way_to_grains_m"); way != json.end() && way->is_number())
-    test.record.way_to_grains = way->get<double>();
+  test.record.way_to_grains = *number("way_to_grains_m", test.record.way_to_grains);
   for (const TestQuantity& quantity : test_quantities)
     {
       const std::string key(quantity.name);
@@ -249,8 +234,8 @@ PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesyste
     }
   catch (const Json::exception&)
     {
-      throw InputError(fmt::format("{}: an RVE of {} is not described as this program does it",
-                                   (folder.parent_path() / result_file::summary).string(), of.name));
+      throw InputError("{}: an RVE of {} is not described as this program does it",
+                       (folder.parent_path() / result_file::summary).string(), of.name);
     }
   const std::string name = name_of(rve, of.name);
   rve.grains = rows_of(read_grains(folder / (name + "_grains.csv")), problems);
@@ -287,9 +272,9 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
                          const RunEnvelopes& envelopes, const std::filesystem::path& folder)
 {
   std::filesystem::create_directories(folder / result_file::curves);
-  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return test.record.body == TestBody::grains; }))
+  if (std::ranges::any_of(tests, [](const auto& test) { return test.record.body == TestBody::grains; }))
     std::filesystem::create_directories(folder / result_file::grains);
-  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return !test.appearance.rves.empty(); }))
+  if (std::ranges::any_of(tests, [](const auto& test) { return !test.appearance.rves.empty(); }))
     std::filesystem::create_directories(folder / result_file::points);
   for (const auto& test : tests)
     {
@@ -339,7 +324,7 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
         tests.push_back(test_of(entry, *kind));
     }
   if (tests.empty())
-    throw InputError(fmt::format("{}: there is no test in it", (folder / result_file::summary).string()));
+    throw InputError("{}: there is no test in it", (folder / result_file::summary).string());
 
   for (auto& test : tests)
     {
@@ -349,7 +334,7 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
       try_to(of_tables, [&] {
         test.record.curve = rows_of(read_curve(folder / result_file::curves / table, test.record.kind), of_tables);
       });
-      if (std::any_of(test.record.stages.begin(), test.record.stages.end(), [&](const StageRecord& stage) {
+      if (std::ranges::any_of(test.record.stages, [&](const StageRecord& stage) {
             return stage.first_row > stage.last_row || stage.last_row >= test.record.curve.size();
           }))
         {

@@ -4,7 +4,6 @@
 #include "results/runs/series.h"
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace feldspar

@@ -12,11 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace feldspar
 {
@@ -161,8 +158,8 @@ Json ensemble(const std::vector<FinishedTest>& tests)
             out["variant_values"] = as_json(any.settings);
         }
       out["n_tests"] = members.size();
-      out["n_valid"] = std::count_if(members.begin(), members.end(), [](const auto* test) { return test->counts(); });
-      out["n_made"] = std::count_if(members.begin(), members.end(), [](const auto* test) { return test->was_made(); });
+      out["n_valid"] = std::ranges::count_if(members, [](const auto* test) { return test->counts(); });
+      out["n_made"] = std::ranges::count_if(members, [](const auto* test) { return test->was_made(); });
       for (const TestQuantity& quantity : test_quantities)
         {
           std::vector<double> values;

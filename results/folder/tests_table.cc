@@ -1,5 +1,6 @@
 #include "results/folder/tests_table.h"
 
+#include "base/mapped.h"
 #include "base/whole_file.h"
 #include "results/runs/quantity_values.h"
 #include "results/varied_columns.h"
@@ -28,9 +29,7 @@ std::string cell(const std::string& text)
 
 void write_tests(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
 {
-  std::vector<std::vector<VariantSetting>> settings;
-  for (const auto& test : tests)
-    settings.push_back(test.settings);
+  const auto settings = mapped<std::vector<VariantSetting>>(tests, [](const auto& test) { return test.settings; });
   const std::vector<VariedColumn> varied = varied_columns(settings);
   std::string text = "name,kind,seed";
   for (const VariedColumn& column : varied)

@@ -62,8 +62,8 @@ std::optional<PlaneThrough> plane_through(const FinishedTest& test)
     {
       if (flaw.open || flaw.outline.size() < 2)
         continue;
-      const auto [left, right] = std::minmax_element(flaw.outline.begin(), flaw.outline.end(),
-                                                     [](const auto& a, const auto& b) { return a[0] < b[0]; });
+      const auto [left, right] =
+        std::ranges::minmax_element(flaw.outline, [](const auto& a, const auto& b) { return a[0] < b[0]; });
       const auto lies_within = [&](const auto& point) { return point[axis] > 0.0 && point[axis] < height; };
       if ((*left)[0] > grain || (*right)[0] < width - grain || !lies_within(*left) || !lies_within(*right))
         continue;
@@ -142,7 +142,7 @@ std::string remark_on_side_plates(const TestsOfRock& tests)
 
 std::string remark_on_flaws(const TestsOfRock& tests)
 {
-  const bool any = std::any_of(tests.begin(), tests.end(), [](const FinishedTest* test) { return test->has_flaws(); });
+  const bool any = std::ranges::any_of(tests, [](const FinishedTest* test) { return test->has_flaws(); });
   return any
            ? "The body has flaws: its strengths are highest nominal stresses, load over the whole section, and hold for "
              "this body. They are no strengths of the rock, nor is their envelope."

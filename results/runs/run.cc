@@ -7,9 +7,8 @@ namespace feldspar
 {
 std::string Provenance::value_of(const input_entries::EntryName& wanted) const
 {
-  const auto found = std::find_if(input.begin(), input.end(), [&](const InputEntry& one) {
-    return one.section == wanted.section && one.entry == wanted.entry;
-  });
+  const auto found = std::ranges::find_if(
+    input, [&](const InputEntry& one) { return one.section == wanted.section && one.entry == wanted.entry; });
   return found == input.end() ? "" : found->value;
 }
 
@@ -21,7 +20,7 @@ std::string Provenance::label_of(const input_entries::EntryName& wanted) const
 
 bool any_has_flaws(const std::vector<FinishedTest>& tests)
 {
-  return std::any_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.has_flaws(); });
+  return std::ranges::any_of(tests, &FinishedTest::has_flaws);
 }
 
 FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant,

@@ -34,6 +34,6 @@ using TestsOfRock = std::vector<const FinishedTest*>;
 
 inline bool any_has_flaws(const std::vector<Series>& all)
 {
-  return std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); });
+  return std::ranges::any_of(all, [](const Series& series) { return any_has_flaws(series.tests); });
 }
 } // namespace feldspar

@@ -58,14 +58,12 @@ std::vector<TestGroup> groups_of(const Series& series)
   for (const auto& test : series.tests)
     {
       const TestGroup wanted = group_of(test.record);
-      auto group =
-        std::find_if(groups.begin(), groups.end(), [&](const TestGroup& one) { return same_conditions(one, wanted); });
+      auto group = std::ranges::find_if(groups, [&](const TestGroup& one) { return same_conditions(one, wanted); });
       if (group == groups.end())
         group = groups.insert(groups.end(), wanted);
       group->tests.push_back(&test);
     }
-  std::stable_sort(groups.begin(), groups.end(),
-                   [](const TestGroup& a, const TestGroup& b) { return comes_before(a, b); });
+  std::ranges::stable_sort(groups, [](const TestGroup& a, const TestGroup& b) { return comes_before(a, b); });
   return groups;
 }
 
@@ -75,7 +73,7 @@ std::vector<TestGroup> shown(const std::vector<TestGroup>& groups)
   for (const auto& group : groups)
     {
       const auto is_beyond = [&](const double sign) {
-        return std::any_of(groups.begin(), groups.end(), [&](const TestGroup& other) {
+        return std::ranges::any_of(groups, [&](const TestGroup& other) {
           return other.kind == group.kind && sign * (other.confining_pressure - group.confining_pressure) > 0.0;
         });
       };
@@ -87,9 +85,8 @@ std::vector<TestGroup> shown(const std::vector<TestGroup>& groups)
 
 const FinishedTest* typical(const TestGroup& group)
 {
-  const auto found = std::find_if(group.tests.begin(), group.tests.end(), [](const FinishedTest* test) {
-    return test->results.peak_stress.value && peak_row(test->record);
-  });
+  const auto found = std::ranges::find_if(
+    group.tests, [](const FinishedTest* test) { return test->results.peak_stress.value && peak_row(test->record); });
   return found == group.tests.end() ? nullptr : *found;
 }
 

@@ -1,6 +1,7 @@
 #include "results/runs/trust.h"
 
 #include "base/append.h"
+#include "base/contains.h"
 #include "base/text.h"
 #include "laboratory/named_entries.h"
 #include "results/runs/quantity_values.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -245,9 +245,9 @@ SharedWarnings shared_warnings(const std::vector<Series>& series)
     std::erase(shared.own[std::size_t(&one - series.data())], sentence);
   };
   for (const std::string& sentence : shortcomings(all_of(*models.front()), models.front()->kind))
-    if (std::all_of(models.begin(), models.end(), [&](const Series* const one) {
+    if (std::ranges::all_of(models, [&](const Series* const one) {
           const auto its = shortcomings(all_of(*one), one->kind);
-          return std::find(its.begin(), its.end(), sentence) != its.end();
+          return contains(its, sentence);
         }))
       {
         shared.of_all.push_back(sentence);
@@ -302,8 +302,7 @@ std::vector<std::string> grouped_warnings(const std::vector<Series>& series)
           std::erase_if(form, [](const char c) { return '0' <= c && c <= '9'; });
           if (!forms.insert(form).second)
             continue;
-          const auto same =
-            std::find_if(all_alike.begin(), all_alike.end(), [&](const Alike& known) { return known.form == form; });
+          const auto same = std::ranges::find(all_alike, form, &Alike::form);
           if (same == all_alike.end())
             all_alike.push_back({form, sentence, 1});
           else
@@ -326,8 +325,7 @@ std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests)
   std::vector<RockTests> rocks;
   for (const auto& test : tests)
     {
-      auto rock =
-        std::find_if(rocks.begin(), rocks.end(), [&](const RockTests& one) { return one.variant == test.variant; });
+      auto rock = std::ranges::find(rocks, test.variant, &RockTests::variant);
       if (rock == rocks.end())
         rock = rocks.insert(rocks.end(), {test.variant, kind_of(test.record), {}});
       rock->tests.push_back(&test);
@@ -337,8 +335,7 @@ std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests)
 
 std::string as_text(const std::vector<TrustCheck>& checks)
 {
-  const auto n_out =
-    std::count_if(checks.begin(), checks.end(), [](const TrustCheck& check) { return check.n_out > 0; });
+  const auto n_out = std::ranges::count_if(checks, [](const TrustCheck& check) { return check.n_out > 0; });
   std::string text = fmt::format("How far to trust it: {} of {} measures out of their bounds\n", n_out, checks.size());
   for (const auto& [measure, n_tests, n_tests_out, mean, worst, worst_test] : checks)
     text += fmt::format("{} {}\n    worst {}, bound {}; {}\n", n_tests_out > 0 ? "✗" : "✓", measure.title,

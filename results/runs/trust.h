@@ -3,7 +3,6 @@
 #include "results/runs/series.h"
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

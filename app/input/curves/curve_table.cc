@@ -1,5 +1,6 @@
 #include "app/input/curves/curve_table.h"
 
+#include "base/contains.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
 #include "base/text.h"
@@ -44,7 +45,7 @@ std::optional<Measured> measured_in(const std::string_view column)
 {
   const std::string name = plain_name(title_with_mark_of(column).name);
   for (std::size_t q = 0; q < quantities().size(); ++q)
-    if (std::ranges::find(quantities()[q].names, name) != quantities()[q].names.end())
+    if (contains(quantities()[q].names, name))
       return Measured(q);
   return std::nullopt;
 }
@@ -109,8 +110,8 @@ std::optional<double> CurveTable::value(const Measured quantity) const
     return std::nullopt;
   const double in_si = place->unit * table.number(place->column);
   if (!std::isfinite(in_si))
-    throw InputError(fmt::format("{}:{}: {}: {} is beyond the range of numbers", file, table.line_of_row(),
-                                 table.name_of(place->column), in_quotes(table.text(place->column))));
+    throw InputError("{}:{}: {}: {} is beyond the range of numbers", file, table.line_of_row(),
+                     table.name_of(place->column), in_quotes(table.text(place->column)));
   return in_si;
 }
 
@@ -118,21 +119,16 @@ InputError CurveTable::refusal(const std::string& what) const
 {
   constexpr std::string_view right_header =
     "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
-  return InputError(fmt::format("{}:{}: {}; the header must be as in \"{}\", of which lateral strain and pressure may "
-                                "be left out",
-                                file, table.line_of_header(), what, right_header));
+  return InputError("{}:{}: {}; the header must be as in \"{}\", of which lateral strain and pressure may "
+                    "be left out",
+                    file, table.line_of_header(), what, right_header);
 }
 
 double CurveTable::unit_of(const std::size_t of_column, const std::string_view unit, const Measured quantity) const
 {
-  try
-    {
-      return unit_in_si(unit, *quantities()[std::size_t(quantity)].dimension);
-    }
-  catch (const InputError& error)
-    {
-      throw refusal(fmt::format("{}: {}", in_quotes(table.name_of(of_column)), error.what()));
-    }
+  return rephrased(
+    [&] { return unit_in_si(unit, *quantities()[std::size_t(quantity)].dimension); },
+    [&](const std::string& what) { return refusal(fmt::format("{}: {}", in_quotes(table.name_of(of_column)), what)); });
 }
 
 /// Reads the rows; stresses and strains tension positive, a lateral strain that is not there is NaN.

@@ -29,7 +29,7 @@ EmissionCatalogue read_emission_catalogue(const std::filesystem::path& file)
     return std::nullopt;
   };
   const auto refusal = [&](const std::size_t line, const std::string& what) {
-    return InputError(fmt::format("{}:{}: {}", file.string(), line, what));
+    return InputError("{}:{}: {}", file.string(), line, what);
   };
   const Column time = find({"time_s"}), stress = find({"deviator_stress_Pa", "axial_stress_Pa", "stress_Pa"});
   const Column magnitude = find({"magnitude"}), amplitude = find({"amplitude_dB"}), energy = find({"energy_J"});
@@ -64,10 +64,9 @@ EmissionCatalogue read_emission_catalogue(const std::filesystem::path& file)
       catalogue.events.push_back(event);
     }
   if (catalogue.events.empty())
-    throw InputError(fmt::format("{}: there is no row below the header", file.string()));
+    throw InputError("{}: there is no row below the header", file.string());
   if (stress && std::ranges::none_of(catalogue.events, [](const RecordedEmission& one) { return one.stress > 0.0; }))
-    throw InputError(
-      fmt::format("{}: the stress is never above 0; it must be positive in the sense of the test", file.string()));
+    throw InputError("{}: the stress is never above 0; it must be positive in the sense of the test", file.string());
   return catalogue;
 }
 } // namespace feldspar

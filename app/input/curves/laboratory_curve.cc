@@ -10,15 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <string>
-#include <string_view>
 
 namespace feldspar
 {
@@ -39,8 +33,8 @@ void turn_to_sense(TestRecord& record, const std::string& file)
   if (std::ranges::any_of(curve, [&](const CurveSample& row) {
         return std::abs(row.lateral_stress) > noise_share * std::abs(top.axial_stress);
       }))
-    throw InputError(fmt::format("{}: has a confining_pressure, which {} has not; --curve-test says which test it is",
-                                 file, record.kind.name));
+    throw InputError("{}: has a confining_pressure, which {} has not; --curve-test says which test it is", file,
+                     record.kind.name);
   const double of_stress = record.kind.stress(top) < 0.0 ? -1.0 : 1.0;
   const double of_strain = record.kind.strain(top) < record.kind.strain(curve.front()) ? -1.0 : 1.0;
   for (CurveSample& row : curve)
@@ -88,10 +82,9 @@ std::vector<std::string> hold_pressure(TestRecord& record, const std::string& fi
   if (first_off <= peak)
     {
       if (!is_small)
-        throw InputError(
-          fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in most rows; once reached it "
-                      "must be the same within 5 % up to the peak, and not negative",
-                      file, -curve[first_off].lateral_stress / 1e6, first_off + 1, median / 1e6));
+        throw InputError("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in most rows; once reached it "
+                         "must be the same within 5 % up to the peak, and not negative",
+                         file, -curve[first_off].lateral_stress / 1e6, first_off + 1, median / 1e6);
       for (CurveSample& row : curve)
         row.lateral_stress = 0.0;
       return remarks;
@@ -176,13 +169,12 @@ FinishedTest read_curve_of_test(const MeasuredCurve& measured, std::vector<std::
   const bool is_pressed = !named || named->envelope_role == EnvelopeRole::compression;
   const bool is_disc = named && *named == brazilian.kind;
   if (!is_disc && table.needs_size() && measured.size && measured.size->height < measured.size->diameter)
-    throw InputError(
-      fmt::format("{}: a cylinder that is shorter than its diameter has no uniform stress; a disc that is "
-                  "split needs --curve-test brazilian",
-                  file.string()));
+    throw InputError("{}: a cylinder that is shorter than its diameter has no uniform stress; a disc that is "
+                     "split needs --curve-test brazilian",
+                     file.string());
   record.curve = rows_of(table, measured.size, is_disc);
   if (record.curve.empty())
-    throw InputError(fmt::format("{}: there is no row below the header", file.string()));
+    throw InputError("{}: there is no row below the header", file.string());
   auto& curve = record.curve;
   if (is_pressed)
     {
@@ -190,11 +182,10 @@ FinishedTest read_curve_of_test(const MeasuredCurve& measured, std::vector<std::
       const double least_stress =
         std::ranges::min(curve, {}, &CurveSample::axial_stress).axial_stress; // tension positive
       if (-least_stress <= record.confining_pressure && record.confining_pressure > 0.0)
-        throw InputError(
-          fmt::format("{}: axial_stress reaches {:g} MPa only, under a confining_pressure of {:g} MPa; it "
-                      "must be the whole axial stress; give the part beyond the pressure as "
-                      "deviator_stress",
-                      file.string(), -least_stress / 1e6, record.confining_pressure / 1e6));
+        throw InputError("{}: axial_stress reaches {:g} MPa only, under a confining_pressure of {:g} MPa; it "
+                         "must be the whole axial stress; give the part beyond the pressure as "
+                         "deviator_stress",
+                         file.string(), -least_stress / 1e6, record.confining_pressure / 1e6);
       record.kind = record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
     }
   else
@@ -206,12 +197,11 @@ FinishedTest read_curve_of_test(const MeasuredCurve& measured, std::vector<std::
   record.peak_demands = {.may_end_rising = true};
   const auto peak = peak_row(record);
   if (!peak)
-    throw InputError(fmt::format("{}: axial_stress never rises; compression is positive, and a specimen that is "
-                                 "pulled needs --curve-test direct_tension",
-                                 file.string()));
+    throw InputError("{}: axial_stress never rises; compression is positive, and a specimen that is "
+                     "pulled needs --curve-test direct_tension",
+                     file.string());
   if (record.kind.strain(curve[*peak]) <= record.kind.strain(curve.front()))
-    throw InputError(
-      fmt::format("{}: axial_strain does not grow up to the peak; shortening is positive", file.string()));
+    throw InputError("{}: axial_strain does not grow up to the peak; shortening is positive", file.string());
   // Elastic rock widens when it is pressed and narrows when it is pulled: other lateral strains would pass as a negative
   // Poisson's ratio.
   const auto half_of_peak = std::ranges::find_if(curve, [&](const CurveSample& row) {
@@ -219,11 +209,10 @@ FinishedTest read_curve_of_test(const MeasuredCurve& measured, std::vector<std::
   });
   if (record.kind.has_uniform_stress &&
       record.kind.sign * (half_of_peak->gauge_lateral_strain - curve.front().gauge_lateral_strain) >= 0.0)
-    throw InputError(
-      fmt::format("{}: lateral_strain grows with the load at half of the peak, as the axial strain does; "
-                  "rock widens where it is pressed and narrows where it is pulled, so that both have "
-                  "other signs",
-                  file.string()));
+    throw InputError("{}: lateral_strain grows with the load at half of the peak, as the axial strain does; "
+                     "rock widens where it is pressed and narrows where it is pulled, so that both have "
+                     "other signs",
+                     file.string());
   const bool ends_at_peak = *peak + 1 == curve.size();
   if (ends_at_peak)
     remarks.push_back(fmt::format("{}: the record ends at its highest stress, which is taken as the strength", shown));
@@ -262,7 +251,7 @@ CylinderSize parse_cylinder_size(const std::string_view text)
       reason = error.what();
     }
   if (sizes.size() != 2 || !(sizes[0] > 0.0) || !(sizes[1] > 0.0))
-    throw InputError(fmt::format("--curve-size must be diameter and height, as in \"50, 100 mm\": {}", reason));
+    throw InputError("--curve-size must be diameter and height, as in \"50, 100 mm\": {}", reason);
   return {sizes[0], sizes[1]};
 }
 
@@ -272,10 +261,9 @@ std::vector<MeasuredCurve> measured_curves(const std::vector<std::filesystem::pa
   const auto kinds = {uniaxial_compression.kind, triaxial_compression.kind, direct_tension.kind, brazilian.kind};
   for (const auto& [option, given] : {std::pair("--curve-size", sizes.size()), {"--curve-test", tests.size()}})
     if (given > 1 && given != files.size())
-      throw InputError(
-        fmt::format("{} is given {} times for {} curves; give it once for all or once for each, in their "
-                    "order",
-                    option, given, files.size()));
+      throw InputError("{} is given {} times for {} curves; give it once for all or once for each, in their "
+                       "order",
+                       option, given, files.size());
   std::vector<MeasuredCurve> curves;
   for (std::size_t k = 0; k < files.size(); ++k)
     {
@@ -287,7 +275,7 @@ std::vector<MeasuredCurve> measured_curves(const std::vector<std::filesystem::pa
       const std::string& name = tests[tests.size() > 1 ? k : 0];
       const auto kind = std::ranges::find(kinds, name, &TestKind::name);
       if (kind == kinds.end())
-        throw InputError(fmt::format("--curve-test {}: must be one of {}", excerpt(name), names(kinds)));
+        throw InputError("--curve-test {}: must be one of {}", excerpt(name), names(kinds));
       curve.kind = *kind;
     }
   return curves;

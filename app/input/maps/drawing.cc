@@ -49,7 +49,7 @@ struct Line
 
 InputError refusal(const Line& line, const std::string& why)
 {
-  return InputError(fmt::format("{}: the {} {}", line.where, line.entity, why));
+  return InputError("{}: the {} {}", line.where, line.entity, why);
 }
 
 Line line_of(const DxfRecord& entity)
@@ -197,8 +197,7 @@ public:
     else if (record.section == "TABLES" && record.name == "LAYER")
       read_layer(record);
     else if (record.section.empty() && record.name != "ENDSEC")
-      throw InputError(
-        fmt::format("{}:{}: {} stands outside of a section", file.string(), record.line, in_quotes(record.name)));
+      throw InputError("{}:{}: {} stands outside of a section", file.string(), record.line, in_quotes(record.name));
     else if (record.section == "ENTITIES")
       add_entity(record);
   }
@@ -231,9 +230,8 @@ private:
   {
     constexpr long is_frozen = 1;
     if (has_entities)
-      throw InputError(
-        fmt::format("{}:{}: the layers stand behind the entities; save the drawing anew by a CAD program",
-                    file.string(), layer.line));
+      throw InputError("{}:{}: the layers stand behind the entities; save the drawing anew by a CAD program",
+                       file.string(), layer.line);
     if ((layer.integer(70, 0) & is_frozen) != 0 || layer.integer(62, 1) < 0)
       hidden_layers.insert(in_small_letters(layer.text(2, "")));
   }
@@ -243,7 +241,7 @@ private:
   {
     const std::array reasons{entity.integer(67, 0) != 0, hidden_layers.contains(in_small_letters(entity.text(8, "0"))),
                              entity.integer(60, 0) != 0};
-    const auto reason = std::find(reasons.begin(), reasons.end(), true);
+    const auto reason = std::ranges::find(reasons, true);
     if (reason != reasons.end())
       ++hidden[std::size_t(reason - reasons.begin())].second;
     return reason == reasons.end();
@@ -271,10 +269,9 @@ private:
     else if (entity.name == "POLYLINE")
       polyline.emplace(entity);
     else
-      throw InputError(
-        fmt::format("{}:{}: has an entity {}; traces are of LINE, LWPOLYLINE and POLYLINE, without arcs. "
-                    "Explode it into lines, or put what is no trace on a layer that is off",
-                    file.string(), entity.line, entity.name == "INSERT" ? "INSERT (a block)" : excerpt(entity.name)));
+      throw InputError("{}:{}: has an entity {}; traces are of LINE, LWPOLYLINE and POLYLINE, without arcs. "
+                       "Explode it into lines, or put what is no trace on a layer that is off",
+                       file.string(), entity.line, entity.name == "INSERT" ? "INSERT (a block)" : excerpt(entity.name));
   }
 
   void end_polyline()
@@ -318,9 +315,9 @@ double metres_of_unit(const long code, const std::filesystem::path& file)
                                             {6, 1.0},    {7, 1e3},    {14, 0.1}};
   const auto known = units.find(code);
   if (known == units.end())
-    throw InputError(fmt::format("{}: its $INSUNITS is {}; it must be 4 (mm), 5 (cm), 6 (m), 14 (dm), 7 (km), 1 "
-                                 "(inches) or 2 (feet)",
-                                 file.string(), code));
+    throw InputError("{}: its $INSUNITS is {}; it must be 4 (mm), 5 (cm), 6 (m), 14 (dm), 7 (km), 1 "
+                     "(inches) or 2 (feet)",
+                     file.string(), code);
   return known->second;
 }
 
@@ -366,7 +363,7 @@ Traces read_drawing(const std::filesystem::path& file)
       if (line.closed && !line.corners.empty())
         add(line.corners.front());
       if (points.size() < 2)
-        throw InputError(fmt::format("{}: trace {} ends where it begins", file.string(), traces.shapes.size() + 1));
+        throw InputError("{}: trace {} ends where it begins", file.string(), traces.shapes.size() + 1);
       traces.shapes.emplace_back(ClosedFlaw{points, std::nullopt, line.layer});
     }
   return traces;

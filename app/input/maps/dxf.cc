@@ -5,10 +5,7 @@
 #include "base/readable_file.h"
 #include "base/text.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -20,9 +17,7 @@ std::optional<long> whole_number(std::string_view text)
 {
   text = trim(text);
   text.remove_prefix(text.starts_with('+'));
-  long value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+  return number_in<long>(text);
 }
 
 const DxfRecord::Group* first_of(const DxfRecord& record, const int code)
@@ -42,7 +37,7 @@ public:
     std::string mark(22, '\0');
     stream.read(mark.data(), std::streamsize(mark.size()));
     if (mark.starts_with("AutoCAD Binary DXF"))
-      throw InputError(fmt::format("{}: is a binary DXF; save it as text (ASCII)", file.string()));
+      throw InputError("{}: is a binary DXF; save it as text (ASCII)", file.string());
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     stream.clear();
     stream.seekg(mark.starts_with(byte_order_mark) ? std::streamoff(byte_order_mark.size()) : 0);
@@ -60,13 +55,13 @@ public:
         n_lines += 2;
         const std::optional<long> number = whole_number(code);
         if (!number || *number < least || *number > most)
-          throw InputError(fmt::format("{}:{}: {} is no group code of DXF; a drawing is pairs of lines, a code and its "
-                                       "value",
-                                       file.string(), n_lines - 1, in_quotes(trim(code))));
+          throw InputError("{}:{}: {} is no group code of DXF; a drawing is pairs of lines, a code and its "
+                           "value",
+                           file.string(), n_lines - 1, in_quotes(trim(code)));
         // The codes of coordinates, whatever they stand in: a word there means that lines are missing.
         if (*number >= 10 && *number <= 59 && !is_decimal_number(trim(value)))
-          throw InputError(fmt::format("{}:{}: {} is not a decimal number, as group code {} has", file.string(),
-                                       n_lines, in_quotes(trim(value)), *number));
+          throw InputError("{}:{}: {} is not a decimal number, as group code {} has", file.string(), n_lines,
+                           in_quotes(trim(value)), *number);
         if (*number != comment)
           return DxfRecord::Group{int(*number), n_lines, std::string(trim(value))};
       }
@@ -78,8 +73,8 @@ public:
   {
     for (std::string line; std::getline(stream, line);)
       if (++n_lines; line.find_first_not_of(" \t\r\n\x1a") != std::string::npos)
-        throw InputError(
-          fmt::format("{}:{}: {} stands behind the EOF of the drawing", file.string(), n_lines, in_quotes(trim(line))));
+        throw InputError("{}:{}: {} stands behind the EOF of the drawing", file.string(), n_lines,
+                         in_quotes(trim(line)));
   }
 
 private:
@@ -102,8 +97,8 @@ long DxfRecord::integer(const int code, const long otherwise) const
     return otherwise;
   const std::optional<long> value = whole_number(group->value);
   if (!value)
-    throw InputError(fmt::format("{}:{}: {} is no whole number, as group code {} has", file.string(), group->line,
-                                 in_quotes(group->value), code));
+    throw InputError("{}:{}: {} is no whole number, as group code {} has", file.string(), group->line,
+                     in_quotes(group->value), code);
   return *value;
 }
 
@@ -117,21 +112,16 @@ double DxfRecord::number(const int code) const
 {
   const Group* const group = first_of(*this, code);
   if (!group)
-    throw InputError(fmt::format("{}:{}: the {} has no group {}", file.string(), line, name, code));
+    throw InputError("{}:{}: the {} has no group {}", file.string(), line, name, code);
   return number_of(*this, *group);
 }
 
 double number_of(const DxfRecord& record, const DxfRecord::Group& group)
 {
-  try
-    {
-      return parse_number(group.value);
-    }
-  catch (const InputError& error)
-    {
-      throw InputError(
-        fmt::format("{}:{}: group code {}: {}", record.file.string(), group.line, group.code, error.what()));
-    }
+  return rephrased([&] { return parse_number(group.value); },
+                   [&](const std::string& what) {
+                     return InputError("{}:{}: group code {}: {}", record.file.string(), group.line, group.code, what);
+                   });
 }
 
 void for_each_record(const std::filesystem::path& file, const std::function<void(DxfRecord&&)>& visit)
@@ -153,8 +143,8 @@ void for_each_record(const std::filesystem::path& file, const std::function<void
       if (group->code != 0)
         {
           if (!record)
-            throw InputError(fmt::format("{}:{}: group code {} stands before the first code 0; this is no drawing",
-                                         file.string(), group->line, group->code));
+            throw InputError("{}:{}: group code {} stands before the first code 0; this is no drawing", file.string(),
+                             group->line, group->code);
           record->groups.push_back(std::move(*group));
           continue;
         }
@@ -166,6 +156,6 @@ void for_each_record(const std::filesystem::path& file, const std::function<void
         }
       record = DxfRecord{file, section, std::move(group->value), group->line, {}};
     }
-  throw InputError(fmt::format("{}: does not end with EOF, as a complete DXF does", file.string()));
+  throw InputError("{}: does not end with EOF, as a complete DXF does", file.string());
 }
 } // namespace feldspar

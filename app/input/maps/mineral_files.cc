@@ -76,7 +76,7 @@ public:
 
   [[noreturn]] void refuse(const std::string& why) const
   {
-    throw InputError(fmt::format("{}:{}: {}", name, csv.line_of_row(), why));
+    throw InputError("{}:{}: {}", name, csv.line_of_row(), why);
   }
 
   /// To be called after the first row has been read: a column that nothing asked for is a mistake.
@@ -84,8 +84,8 @@ public:
   {
     for (std::size_t c = 0; c < csv.header().size(); ++c)
       if (!csv.name_of(c).empty() && std::ranges::find(known, c) == known.end())
-        throw InputError(fmt::format("{}:{}: {} is no column of this table; they are {}", name, csv.line_of_header(),
-                                     in_quotes(csv.name_of(c)), columns));
+        throw InputError("{}:{}: {} is no column of this table; they are {}", name, csv.line_of_header(),
+                         in_quotes(csv.name_of(c)), columns);
   }
 
   void check_number(const std::size_t n, const std::size_t most) const
@@ -140,14 +140,14 @@ MineralMap read_points(const std::filesystem::path& file)
       table.check_number(map.place.size(), most_points);
     }
   if (map.place.empty())
-    throw InputError(fmt::format("{}: there is no point below the header", file.string()));
+    throw InputError("{}: there is no point below the header", file.string());
   return map;
 }
 
 MineralMap read_picture(const std::filesystem::path& file)
 {
   const std::string bytes = content_of(file);
-  const auto refuse = [&](const std::string& why) { throw InputError(fmt::format("{}: {}", file.string(), why)); };
+  const auto refuse = [&](const std::string& why) { throw InputError("{}: {}", file.string(), why); };
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   const auto not_png = [&] { refuse(fmt::format("is no PNG, or damaged ({})", printable(image.message))); };
@@ -212,7 +212,7 @@ std::vector<Mineral> read_minerals(const std::filesystem::path& file)
       table.check_number(minerals.size(), most_minerals);
     }
   if (minerals.empty())
-    throw InputError(fmt::format("{}: there is no mineral below the header", file.string()));
+    throw InputError("{}: there is no mineral below the header", file.string());
   return minerals;
 }
 

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -59,7 +58,7 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const Vector<dim>& size)
         }
       kept[i] = within && (specimen.is_round() || from_middle.norm() + specimen.grains.radius[i] <= 0.5 * diameter);
     }
-  if (std::count(kept.begin(), kept.end(), true) < 2)
+  if (std::ranges::count(kept, true) < 2)
     throw ParameterError(parameter_id<&SpecimenParameters::width>(),
                          fmt::format("a Brazilian disc of {:.3g} mm holds fewer than two grains; make the "
                                      "specimen wider or the grains smaller ({})",

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace feldspar
 {
@@ -49,8 +48,7 @@ SetUpTest<dim> pull(Specimen<dim> body, const TestParameters& wanted, const Dyna
   std::vector<bool> is_held_above(body.grains.size(), false);
   for (const std::uint32_t i : upper_grains)
     is_held_above[piece[i]] = true;
-  if (std::none_of(lower_grains.begin(), lower_grains.end(),
-                   [&](const std::uint32_t i) { return is_held_above[piece[i]]; }))
+  if (std::ranges::none_of(lower_grains, [&](const std::uint32_t i) { return is_held_above[piece[i]]; }))
     throw ParameterError(parameters_id<TestKind>(),
                          "no bonds lead from one grip to the other, so that nothing is pulled: a flaw without "
                          "strength goes right through the specimen, whose tensile strength is 0; leave the test out");

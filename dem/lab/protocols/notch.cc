@@ -22,16 +22,14 @@ std::vector<Entry<TestParameters>> notch_entries()
 template <int dim>
 void cut_notch(Specimen<dim>& body, const Vector<2>& from, const Vector<2>& to, const TestParameters& wanted)
 {
-  try
-    {
+  rephrased(
+    [&] {
       put_in_flaws<dim>(body, {Slot{from, to, 0.0}});
-    }
-  catch (const InputError& error)
-    {
-      throw ParameterError(parameter_id<&NotchParameters::ratio>(),
-                           fmt::format("{}", wanted.of<NotchParameters>().ratio),
-                           fmt::format("the notch cannot be cut: {}", error.what()));
-    }
+    },
+    [&](const std::string& what) {
+      return ParameterError(parameter_id<&NotchParameters::ratio>(),
+                            fmt::format("{}", wanted.of<NotchParameters>().ratio), "the notch cannot be cut: " + what);
+    });
 }
 
 template void cut_notch<2>(Specimen<2>&, const Vector<2>&, const Vector<2>&, const TestParameters&);

@@ -1,4 +1,3 @@
-#include "base/input_error.h"
 #include "base/parameter_id.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"

@@ -1,5 +1,7 @@
 #include "dem/lab/protocols/protocols.h"
 
+#include "base/contains.h"
+#include "base/mapped.h"
 #include "base/parameter_id.h"
 #include "dem/flaws/clumps.h"
 #include "laboratory/entries.h"
@@ -38,7 +40,7 @@ std::vector<Entry<TestParameters>> test_entries()
   std::vector<OwnEntries> taken;
   for (const LaboratoryProtocol* protocol : laboratory_protocols())
     for (const OwnEntries entries : protocol->own_entries)
-      if (entries && std::find(taken.begin(), taken.end(), entries) == taken.end())
+      if (entries && !contains(taken, entries))
         {
           taken.push_back(entries);
           for (const auto& one : entries())
@@ -62,10 +64,7 @@ std::vector<TestKind> kinds_that_take(const std::string_view entry)
 const std::vector<TestKind>& test_kinds()
 {
   static const std::vector<TestKind> kinds = [] {
-    std::vector<TestKind> all;
-    for (const LaboratoryProtocol* protocol : laboratory_protocols())
-      all.push_back(protocol->kind);
-    return all;
+    return mapped<TestKind>(laboratory_protocols(), [&](const LaboratoryProtocol* protocol) { return protocol->kind; });
   }();
   return kinds;
 }
@@ -73,7 +72,7 @@ const std::vector<TestKind>& test_kinds()
 const LaboratoryProtocol& protocol_of(const TestKind& kind)
 {
   const auto& all = laboratory_protocols();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto* one) { return one->kind == kind; });
+  const auto found = std::ranges::find_if(all, [&](const auto* one) { return one->kind == kind; });
   if (found == all.end())
     throw std::logic_error(fmt::format("\"{}\" is in no list of laboratory tests", kind.name));
   return **found;

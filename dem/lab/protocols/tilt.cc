@@ -88,8 +88,7 @@ SetUpTest<dim> set_up_tilt(Specimen<dim> specimen, double /*confining_pressure*/
 void check_tilt(const TestParameters& wanted, const double width, const double height)
 {
   const auto& gravity = wanted.gravity;
-  if (gravity.empty() || !(gravity.back() < 0.0) ||
-      std::count(gravity.begin(), gravity.end(), 0.0) + 1 < std::ssize(gravity))
+  if (gravity.empty() || !(gravity.back() < 0.0) || std::ranges::count(gravity, 0.0) + 1 < std::ssize(gravity))
     throw ParameterError(
       parameter_id<&TestParameters::gravity>(),
       "the weight presses the body of tilt on its plate: give 0 and a negative last component, such as "

@@ -29,7 +29,7 @@ void add_mean_of(Chart& chart, const SeriesGroup& of, const Quantity& quantity, 
   Band over_seeds = band(of.group, quantity, false);
   if (scale == Scale::over_highest && !over_seeds.mean.empty())
     {
-      const double highest = *std::max_element(over_seeds.mean.begin(), over_seeds.mean.end());
+      const double highest = *std::ranges::max_element(over_seeds.mean);
       if (!(highest > 0.0))
         return;
       for (auto* const numbers : {&over_seeds.mean, &over_seeds.deviation})
@@ -50,15 +50,14 @@ void add_mean_of(Chart& chart, const SeriesGroup& of, const Quantity& quantity, 
 template <typename Value>
 bool is_nowhere(const SeriesGroup& of, const Value& value)
 {
-  return std::all_of(of.group.tests.begin(), of.group.tests.end(), [&](const FinishedTest* test) {
-    return std::all_of(test->record.curve.begin(), test->record.curve.end(),
-                       [&](const CurveSample& row) { return value(row) == 0.0; });
+  return std::ranges::all_of(of.group.tests, [&](const FinishedTest* test) {
+    return std::ranges::all_of(test->record.curve, [&](const CurveSample& row) { return value(row) == 0.0; });
   });
 }
 /// Returns whether a single series has cracks; their kinds then have colours of their own.
 bool is_one(const SameTests& same)
 {
-  return std::count_if(same.begin(), same.end(), [](const auto& of) { return of.counts_cracks(); }) == 1;
+  return std::ranges::count_if(same, [](const auto& of) { return of.counts_cracks(); }) == 1;
 }
 } // namespace
 
@@ -76,8 +75,8 @@ Pictures crack_count_picture(const SameTests& same)
         add_mean_of(chart, of, [](const CurveSample& row) { return double(row.n_shear_cracks); },
                     {.label = beginning + "shear cracks", .colour = one ? shear_colour : series_colour, .dashes = 2});
       }
-  const bool any_rves = std::any_of(same.begin(), same.end(),
-                                    [](const auto& of) { return of.series->kind == SeriesKind::finite_elements; });
+  const bool any_rves =
+    std::ranges::any_of(same, [](const auto& of) { return of.series->kind == SeriesKind::finite_elements; });
   const std::string of_rves =
     any_rves
       ? ". Of finite elements those of the representative volumes at all points, more than the sample itself would have"
@@ -89,7 +88,7 @@ Pictures crack_count_picture(const SameTests& same)
 
 Pictures energy_picture(const SameTests& same)
 {
-  const auto of = std::find_if(same.begin(), same.end(), [](const auto& one) { return one.counts_cracks(); });
+  const auto of = std::ranges::find_if(same, [](const auto& one) { return one.counts_cracks(); });
   if (of == same.end())
     return {};
   struct Part
@@ -121,7 +120,7 @@ Pictures energy_picture(const SameTests& same)
 
 Pictures emission_picture(const SameTests& same)
 {
-  const auto of = std::find_if(same.begin(), same.end(), [](const auto& one) { return one.counts_cracks(); });
+  const auto of = std::ranges::find_if(same, [](const auto& one) { return one.counts_cracks(); });
   if (of == same.end())
     return {};
   const auto hits = [](const CurveSample& row) { return double(row.n_tension_cracks + row.n_shear_cracks); };

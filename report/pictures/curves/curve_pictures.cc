@@ -1,5 +1,6 @@
 #include "report/pictures/curves/curve_pictures.h"
 
+#include "base/contains.h"
 #include "report/chart/gnuplot_writer.h"
 #include "report/pictures/figures.h"
 
@@ -12,7 +13,7 @@ namespace feldspar
 bool SeriesGroup::counts_cracks() const
 {
   return series->kind != SeriesKind::laboratory_curve &&
-         std::none_of(group.tests.begin(), group.tests.end(), [](const FinishedTest* test) {
+         std::ranges::none_of(group.tests, [](const FinishedTest* test) {
            const bool is_continuum =
              test->record.body == TestBody::finite_elements && test->record.specimen.n_joints == 0;
            return is_continuum ||
@@ -22,15 +23,14 @@ bool SeriesGroup::counts_cracks() const
 
 bool any_has_several(const SameTests& same)
 {
-  return std::any_of(same.begin(), same.end(), [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
+  return std::ranges::any_of(same, [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
 }
 
 std::string means_of_several(const SameTests& same, const bool shows_single_tests)
 {
   if (!any_has_several(same))
     return "";
-  const bool all_have =
-    std::all_of(same.begin(), same.end(), [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
+  const bool all_have = std::ranges::all_of(same, [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
   if (all_have)
     return std::string(". Lines: means; bands: ± standard deviation") +
            (shows_single_tests ? "; thin lines: single tests" : "");
@@ -76,8 +76,8 @@ std::vector<Picture> curve_picture(Chart chart, const SameTests& same, const std
   const auto layer = [](const ChartSeries& series) {
     return series.kind == ChartSeries::Kind::area ? 0 : !series.goes_with.empty() ? 1 : series.to_the_right ? 3 : 2;
   };
-  std::stable_sort(chart.series.begin(), chart.series.end(),
-                   [&](const ChartSeries& a, const ChartSeries& b) { return layer(a) < layer(b); });
+  std::ranges::stable_sort(chart.series,
+                           [&](const ChartSeries& a, const ChartSeries& b) { return layer(a) < layer(b); });
   return {{.name = same.front().group.name() + ending,
            .caption = caption,
            .alternative = alternative,
@@ -94,14 +94,13 @@ std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all)
   for (std::size_t n = 0; n < all.size(); ++n)
     for (const auto& group : groups_of(all[n]))
       {
-        auto found = std::find_if(programme.begin(), programme.end(),
-                                  [&](const auto& entry) { return same_conditions(entry.first, group); });
+        auto found =
+          std::ranges::find_if(programme, [&](const auto& entry) { return same_conditions(entry.first, group); });
         if (found == programme.end())
           found = programme.insert(programme.end(), {group, {}});
         found->second.push_back({&all[n], n, group});
       }
-  std::stable_sort(programme.begin(), programme.end(),
-                   [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
+  std::ranges::stable_sort(programme, [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
   for (const auto& [group, same] : programme)
     every.push_back(group);
   const auto on_page = shown(every);
@@ -110,8 +109,7 @@ std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all)
   for (const auto& [group, same] : programme)
     {
       const std::string name = group.name();
-      const bool is_shown =
-        std::any_of(on_page.begin(), on_page.end(), [&](const TestGroup& one) { return one.name() == name; });
+      const bool is_shown = contains(on_page, name, &TestGroup::name);
       GroupPictures pictures{group.title(), is_shown, pictures_of(curve_figures, same)};
       if (!pictures.pictures.empty())
         result.push_back(std::move(pictures));

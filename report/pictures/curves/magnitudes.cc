@@ -42,7 +42,7 @@ void add_counts(Chart& chart, std::vector<double> magnitudes, const std::optiona
   std::erase_if(magnitudes, [](const double one) { return !std::isfinite(one); });
   if (magnitudes.empty())
     return;
-  std::sort(magnitudes.begin(), magnitudes.end(), std::greater<>());
+  std::ranges::sort(magnitudes, std::greater<>());
   ChartSeries counts{.label = fmt::format("{}{} events", beginning, magnitudes.size()), .colour = colour};
   for (std::size_t k = 0; k < magnitudes.size(); ++k)
     if (k + 1 == magnitudes.size() || std::floor(magnitudes[k + 1] / finest) < std::floor(magnitudes[k] / finest))

@@ -35,8 +35,8 @@ std::vector<Source> sources_of(const SeriesGroup& of)
         if (const SourceMechanism source = mechanism(event, dimension); !source.kind.empty())
           sources.push_back({source.scalar_moment, source.kind, hudson_place(event, dimension)});
     }
-  std::stable_sort(sources.begin(), sources.end(),
-                   [](const Source& one, const Source& other) { return one.scalar_moment > other.scalar_moment; });
+  std::ranges::stable_sort(
+    sources, [](const Source& one, const Source& other) { return one.scalar_moment > other.scalar_moment; });
   return sources;
 }
 

@@ -154,8 +154,7 @@ std::vector<ConfinedCurves> confined_curves(const Series& series)
   for (TestGroup& group : groups_of(series))
     if (group.envelope_role() == EnvelopeRole::compression && group.kind.has_uniform_stress &&
         !group.kind.follows_stages &&
-        std::none_of(group.tests.begin(), group.tests.end(),
-                     [](const FinishedTest* test) { return test->record.curve.empty(); }))
+        std::ranges::none_of(group.tests, [](const FinishedTest* test) { return test->record.curve.empty(); }))
       all.push_back({std::move(group), tones[all.size() % tones.size()]});
   return all;
 }

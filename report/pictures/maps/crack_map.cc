@@ -35,7 +35,7 @@ void add_numbers(Chart& chart, const std::vector<Crack>& cracks, const MapStage&
   ChartSeries later{.kind = ChartSeries::Kind::segments, .colour = "#707070", .width = 1.8};
   for (const auto& crack : cracks)
     if (crack.step > stage.last_step &&
-        std::any_of(first.begin(), first.end(), [&](const auto& one) { return one.joint == crack.joint; }))
+        std::ranges::any_of(first, [&](const auto& one) { return one.joint == crack.joint; }))
       later.points.push_back(trace_of(crack));
   ChartSeries numbers{.kind = ChartSeries::Kind::texts, .colour = "#101010", .size = 14.0};
   for (const auto& one : first)
@@ -88,8 +88,8 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
       append(chart.series, flaw_lines(test));
       const std::vector<Crack> cracks = at_end ? carried(test) : record.cracks;
       std::vector<Crack> broken;
-      std::copy_if(cracks.begin(), cracks.end(), std::back_inserter(broken),
-                   [&](const Crack& crack) { return crack.step <= stage.last_step; });
+      std::ranges::copy_if(cracks, std::back_inserter(broken),
+                           [&](const Crack& crack) { return crack.step <= stage.last_step; });
       append(chart.series, crack_traces(broken, 1.8));
       if (panels.empty())
         add_numbers(chart, cracks, stage, paper_of(frame));

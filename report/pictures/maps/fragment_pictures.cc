@@ -124,7 +124,7 @@ Pictures fragment_size_picture(const SeriesAmong& of)
           }
       if (fragments.empty())
         continue;
-      std::sort(fragments.begin(), fragments.end());
+      std::ranges::sort(fragments);
       const std::size_t n = chart.series.size();
       ChartSeries line{.label = group.title(),
                        .colour = colour(series, of.n),

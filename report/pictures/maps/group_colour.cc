@@ -60,7 +60,7 @@ std::vector<unsigned int> group_colours(const std::vector<GrainPicture>& grains)
       for (const std::uint32_t other : beside)
         if (const auto known = tone.find(other); known != tone.end())
           ++n_beside[known->second];
-      tone[group] = std::size_t(std::min_element(n_beside.begin(), n_beside.end()) - n_beside.begin());
+      tone[group] = std::size_t(std::ranges::min_element(n_beside) - n_beside.begin());
     }
   std::vector<unsigned int> colours;
   for (const GrainPicture& grain : grains)

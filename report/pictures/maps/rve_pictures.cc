@@ -64,7 +64,7 @@ std::string standing_of(const PointRve& rve, const SampleFields& fields)
 Pictures rve_picture(const FinishedTest& test, const std::string& title)
 {
   const auto& rves = test.appearance.rves;
-  if (rves.empty() || std::any_of(rves.begin(), rves.end(), [](const auto& v) { return v.grains.empty(); }))
+  if (rves.empty() || std::ranges::any_of(rves, [](const auto& v) { return v.grains.empty(); }))
     return {};
   std::vector<std::string> headings;
   for (std::size_t k = 0; k < rves.size(); ++k)

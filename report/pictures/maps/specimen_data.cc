@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace feldspar
 {
@@ -120,8 +119,7 @@ Json grain_data(const std::vector<GrainPicture>& grains, const std::vector<Miner
         most_moved = std::max(most_moved, std::abs(moved(grain, c)));
       most_stress = std::max(most_stress, std::abs(grain.mean_stress));
     }
-  const bool has_groups =
-    std::any_of(grains.begin(), grains.end(), [](const GrainPicture& grain) { return grain.group != 0; });
+  const bool has_groups = std::ranges::any_of(grains, [](const GrainPicture& grain) { return grain.group != 0; });
   const auto colours = !minerals.empty() ? mineral_colours(grains, minerals)
                        : has_groups      ? group_colours(grains)
                                          : std::vector<unsigned int>();
@@ -166,7 +164,7 @@ Json crack_data(const std::vector<Crack>& cracks, const std::vector<GrainPicture
   std::vector<double> opening;
   for (std::size_t k = 0; k < cracks.size(); k += every)
     opening.push_back(parted.opening(cracks[k]));
-  const double most_open = opening.empty() ? 0.0 : std::max(*std::max_element(opening.begin(), opening.end()), 1e-12);
+  const double most_open = opening.empty() ? 0.0 : std::max(*std::ranges::max_element(opening), 1e-12);
   Bytes places, normals, of_rows, joints, openings;
   for (const double one : opening)
     openings.add_share(one / most_open);
@@ -195,8 +193,8 @@ Json event_data(const TestRecord& record, const std::vector<const CurveSample*>&
   for (const EmissionEvent& event : record.events)
     if (const auto source = mechanism(event, record.dimension()); std::isfinite(source.magnitude))
       events.emplace_back(source, &event);
-  std::stable_sort(events.begin(), events.end(),
-                   [](const auto& one, const auto& other) { return one.first.magnitude > other.first.magnitude; });
+  std::ranges::stable_sort(
+    events, [](const auto& one, const auto& other) { return one.first.magnitude > other.first.magnitude; });
   const std::size_t left_out = events.size() - std::min(events.size(), most);
   events.resize(events.size() - left_out);
   const double full_size =
@@ -265,8 +263,7 @@ Json data_of(const TitledTest& one, const std::size_t n)
 
   // In the order of breaking, so that those broken up to a row are the first.
   std::vector<Crack> cracks = record.cracks;
-  std::stable_sort(cracks.begin(), cracks.end(),
-                   [](const Crack& one, const Crack& other) { return one.step < other.step; });
+  std::ranges::stable_sort(cracks, {}, &Crack::step);
   const Cube cube = cube_around(record, grains);
   double radius = std::numeric_limits<double>::min();
   double mean_radius = 0.0;
@@ -300,7 +297,7 @@ Json data_of(const TitledTest& one, const std::size_t n)
 
 std::string specimen_data(const std::vector<TitledTest>& tests, const ShownOnPaper on_paper)
 {
-  const auto n = std::size_t(std::count_if(tests.begin(), tests.end(), is_shown));
+  const auto n = std::size_t(std::ranges::count_if(tests, is_shown));
   Json all = Json::array();
   for (const TitledTest& one : tests)
     if (is_shown(one))
