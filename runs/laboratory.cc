@@ -89,6 +89,25 @@ std::vector<std::size_t> longest_first(const std::vector<LaboratoryOrder>& order
 }
 
 template <int dim>
+bool advance(LabTest<dim>& test, const std::function<void()>& check, const std::size_t part, RunObserver& observer)
+{
+  try
+    {
+      test.advance(check);
+    }
+  catch (const Interrupted&)
+    {
+      if (!test.is_seated())
+        throw;
+    }
+  if (test.went_wrong())
+    return false;
+  const CurveSample& row = test.curve().back();
+  observer.advanced(part, {&row, 0.0, fmt::format(", {} cracks", row.n_tension_cracks + row.n_shear_cracks)});
+  return true;
+}
+
+template <int dim>
 TestOutcome run_test(const LaboratoryOrder& order, const std::function<Specimen<dim>()>& specimen,
                      const Checkpoints& checkpoints, const std::size_t part, RunObserver& observer)
 {
@@ -98,20 +117,8 @@ TestOutcome run_test(const LaboratoryOrder& order, const std::function<Specimen<
   };
   LabTest<dim> test = checkpoints.open(begin, observer);
   lead(test, checkpoints, observer, order.steps_between_checkpoints, [&](const auto& /*keep_if_due*/) {
-    try
-      {
-        test.advance([&] { observer.end_if_wanted(); });
-      }
-    catch (const Interrupted&)
-      {
-        if (!test.is_seated())
-          throw; // a seating is begun anew
-      }
-    if (test.went_wrong())
-      return false;
-    const CurveSample& row = test.curve().back();
-    observer.advanced(part, {&row, 0.0, fmt::format(", {} cracks", row.n_tension_cracks + row.n_shear_cracks)});
-    return true;
+    return advance(
+      test, [&] { observer.end_if_wanted(); }, part, observer);
   });
   return test.finish(!test.has_ended());
 }
@@ -158,6 +165,8 @@ std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders, 
   return tests;
 }
 
+template decltype(advance<2>) advance<2>;
+template decltype(advance<3>) advance<3>;
 template decltype(run_test<2>) run_test<2>;
 template decltype(run_test<3>) run_test<3>;
 template decltype(run_tests<2>) run_tests<2>;

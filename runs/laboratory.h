@@ -18,6 +18,9 @@
 /// Laboratory tests on specimens of grains.
 namespace feldspar
 {
+template <int dim>
+class LabTest;
+
 /// A test that is to be made.
 struct LaboratoryOrder
 {
@@ -36,6 +39,11 @@ struct LaboratoryOrder
 
 /// The numbers of the tests in the order in which they are begun: the longest first, so that none is left alone at the end.
 std::vector<std::size_t> longest_first(const std::vector<LaboratoryOrder>& orders);
+
+/// Brings a test to its next row and tells the observer; `check` may throw Interrupted. Returns false where its numbers went
+/// wrong. Throws Interrupted out of a seating, which is begun anew.
+template <int dim>
+bool advance(LabTest<dim>& test, const std::function<void()>& check, std::size_t part, RunObserver& observer);
 
 /// Runs a test from where its checkpoint stands to its end, or to where the observer wants the end. `specimen` gives the
 /// specimen, once for each checkpoint that is tried and once for the start. Throws Interrupted where there is nothing to

@@ -62,13 +62,20 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
   return text + trust_as_text(tests) + line_by_line(missing);
 }
 
-/// Each process makes its share of the specimens, and then of the tests.
+/// Each process makes its share of the specimens, and then of the tests, or all make all tests together.
 template <int dim>
 void share_out_tests(const Run& run, Progress& progress)
 {
   const RunPlan plan(run.input);
   check_memory_of_tests(plan);
   share_out_specimens<dim>(plan, run.folder, progress);
+  if (makes_tests_together(plan))
+    {
+      std::vector<Specimen<dim>> specimens;
+      together_or_interrupted([&] { specimens = provide_specimens<dim>(plan, run.folder, progress); });
+      run_together(plan, plan_tests(plan, specimens), specimens, run.folder, progress);
+      return;
+    }
   together_or_interrupted([&] {
     const auto own_tests = [&](const std::vector<Specimen<dim>>& known) {
       const auto all = plan_tests(plan, known);

@@ -78,6 +78,14 @@ struct ReportLabels
   std::string date; ///< as it was written: no clock
 };
 
+/// Whether all processes of a run compute a body together; else each makes tests of its own.
+enum class SharedBody
+{
+  by_size, ///< a large one
+  always,
+  never
+};
+
 /// All that an input file says. A default-constructed value is what an empty file means.
 struct Input
 {
@@ -102,6 +110,7 @@ struct Input
   TestParameters tests;
   std::vector<double> confinements{5e6, 10e6, 20e6, 30e6, 40e6, 50e6, 60e6}; ///< of tests that take one [Pa]
   std::uint64_t steps_between_checkpoints = 20000;
+  SharedBody shared_body = SharedBody::by_size;
   std::vector<std::uint64_t> seeds{1};
   VariantParameters variants;
   std::vector<std::string> settled_by_file; ///< entries that are given beside a specimen file, which settles them

@@ -194,6 +194,15 @@ Entry<Input> checkpoint_entry()
     [](const std::uint64_t steps) { return std::to_string(steps); }, "after which `lab --resume` can take up a test");
 }
 
+Entry<Input> shared_body_entry()
+{
+  return entry::choice(
+    "Shared body", &Input::shared_body,
+    {{"by size", SharedBody::by_size}, {"always", SharedBody::always}, {"never", SharedBody::never}},
+    "whether the processes of mpirun compute each specimen together, with the same results, or each makes tests of its own; "
+    "by size: specimens of 100 000 grains and more together");
+}
+
 std::vector<Entry<TestParameters>> tests_text_entries()
 {
   return {entry::text("Gravity", &TestParameters::gravity, "m/s^2", "none, or a number for each axis", read_gravity,

@@ -14,6 +14,7 @@ Entry<SpecimenParameters> sieve_curve_entry();
 std::vector<Entry<Input>> mineral_file_entries();
 std::vector<Entry<MineralParameters>> mineral_entries();
 Entry<Input> checkpoint_entry();
+Entry<Input> shared_body_entry();
 /// Gravity and the laboratory's rate, of all tests.
 std::vector<Entry<TestParameters>> tests_text_entries();
 std::vector<Entry<VariantParameters>> variant_entries();

@@ -61,7 +61,7 @@ std::vector<Parameter> make_parameter_table()
   add_own("Tests", test_list_entries());
   add("Tests", &Input::tests, test_entries());
   add("Tests", &Input::tests, tests_text_entries());
-  add_own("Tests", {checkpoint_entry()});
+  add_own("Tests", {checkpoint_entry(), shared_body_entry()});
   add("Emission", &Input::tests, emission_entries());
   add("Variants", &Input::variants, variant_entries());
   add_own("Seeds", {seeds_entry()});

@@ -1,11 +1,14 @@
 #include "app/programme/lab_run.h"
 
 #include "app/programme/checks.h"
+#include "app/programme/genesis_effort.h"
 #include "app/programme/laboratory_effort.h"
 #include "app/programme/run_board.h"
 #include "app/run/run_record.h"
 #include "app/screen/expected_length.h"
+#include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
+#include "runs/shared_tests.h"
 
 #include <fmt/format.h>
 
@@ -49,10 +52,11 @@ std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<S
   return planned;
 }
 
+namespace
+{
 template <int dim>
-std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<LaboratoryOrder>& tests,
-                                        std::vector<Specimen<dim>>& specimens, const std::filesystem::path& folder,
-                                        Progress& progress, const bool tells_failures)
+std::vector<BoardPart> parts_of(const RunPlan& plan, const std::vector<LaboratoryOrder>& tests,
+                                const std::vector<Specimen<dim>>& specimens)
 {
   std::vector<BoardPart> parts;
   for (const LaboratoryOrder& one : tests)
@@ -62,10 +66,38 @@ std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<L
       parts.push_back(
         {one.name, 1.0, BoardTest{one.test, &input, cost_of_specimen(specimens[one.specimen].grains.size(), rate)}});
     }
+  return parts;
+}
+} // namespace
+
+bool makes_tests_together(const RunPlan& plan)
+{
+  constexpr double large = 1e5; // grains
+  return std::ranges::any_of(plan.orders, [&](const SpecimenOrder& order) {
+    const Input& input = plan.input_of(order);
+    return input.shared_body == SharedBody::always ||
+           (input.shared_body == SharedBody::by_size && expected_effort(input.specimen).n_grains >= large);
+  });
+}
+
+template <int dim>
+void run_together(const RunPlan& plan, const std::vector<LaboratoryOrder>& tests, std::vector<Specimen<dim>>& specimens,
+                  const std::filesystem::path& folder, Progress& progress)
+{
+  RunBoard board(progress, "tests", parts_of(plan, tests, specimens));
+  run_shared_tests(tests, specimens, folder, board);
+  progress.finish(fmt::format("{} by {} processes together", tests.size(), ranks::number()));
+}
+
+template <int dim>
+std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<LaboratoryOrder>& tests,
+                                        std::vector<Specimen<dim>>& specimens, const std::filesystem::path& folder,
+                                        Progress& progress, const bool tells_failures)
+{
   for (const std::string& sentence : entries_without_effect(plan.variants))
     progress.remark(sentence);
   progress.remark(describe_effort<dim>(tests, plan.variants, specimens));
-  RunBoard board(progress, "tests", parts, tells_failures);
+  RunBoard board(progress, "tests", parts_of(plan, tests, specimens), tells_failures);
   auto finished_tests = run_tests(tests, specimens, folder, board);
   const auto n_made = std::ranges::count_if(finished_tests, &FinishedTest::was_made);
   const auto n_failed =
@@ -77,6 +109,8 @@ std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<L
 
 template decltype(plan_tests<2>) plan_tests<2>;
 template decltype(plan_tests<3>) plan_tests<3>;
+template decltype(run_together<2>) run_together<2>;
+template decltype(run_together<3>) run_together<3>;
 template decltype(run_programme<2>) run_programme<2>;
 template decltype(run_programme<3>) run_programme<3>;
 } // namespace feldspar

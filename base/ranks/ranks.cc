@@ -113,6 +113,53 @@ std::string gathered(const std::string& text)
   return all;
 }
 
+std::vector<std::byte> gathered_by_all(const std::span<const std::byte> own, std::vector<std::size_t>& sizes)
+{
+  const std::size_t n = number(), size = own.size();
+  sizes.assign(n, size);
+  if (n == 1)
+    return {own.begin(), own.end()};
+  MPI_Allgather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, of_group);
+  std::vector<std::size_t> first(n + 1, 0);
+  std::partial_sum(sizes.begin(), sizes.end(), first.begin() + 1);
+  std::vector<std::byte> all(first.back());
+  const std::size_t most = most_at_once / n, longest = *std::ranges::max_element(sizes);
+  std::vector<int> counts(n), places(n);
+  for (std::size_t begin = 0; begin < longest; begin += most) // in rounds, of a part of each
+    {
+      for (std::size_t r = 0; r < n; ++r)
+        counts[r] = int(std::min(most, sizes[r] - std::min(sizes[r], begin)));
+      std::exclusive_scan(counts.begin(), counts.end(), places.begin(), 0);
+      std::vector<std::byte> round(longest > most ? std::size_t(places.back() + counts.back()) : 0);
+      std::byte* const to = longest > most ? round.data() : all.data();
+      MPI_Allgatherv(own.data() + std::min(size, begin), counts[mine()], MPI_BYTE, to, counts.data(), places.data(),
+                     MPI_BYTE, of_group);
+      for (std::size_t r = 0; r < n && longest > most; ++r)
+        std::copy_n(to + places[r], counts[r], all.data() + first[r] + std::min(sizes[r], begin));
+    }
+  return all;
+}
+
+void exchange(const std::vector<double>& sent, const std::vector<std::size_t>& first_sent,
+              std::vector<double>& received, const std::vector<std::size_t>& first_received)
+{
+  constexpr int tag = 2;
+  std::vector<MPI_Request> requests;
+  requests.reserve(2 * number());
+  const auto with_each = [&](const std::vector<std::size_t>& first, const auto& begin) {
+    for (unsigned int r = 0; r < number(); ++r)
+      if (const std::size_t n = first[r + 1] - first[r]; n > 0)
+        begin(first[r], int(n), int(r), &requests.emplace_back());
+  };
+  with_each(first_received, [&](const std::size_t at, const int n, const int from, MPI_Request* const request) {
+    MPI_Irecv(received.data() + at, n, MPI_DOUBLE, from, tag, of_group, request);
+  });
+  with_each(first_sent, [&](const std::size_t at, const int n, const int to, MPI_Request* const request) {
+    MPI_Isend(sent.data() + at, n, MPI_DOUBLE, to, tag, of_group, request);
+  });
+  MPI_Waitall(int(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
 void together(const std::function<void()>& work)
 {
   enum Outcome : int

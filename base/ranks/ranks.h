@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,14 @@ std::string of_first(const std::string& text);
 
 /// The texts of all ranks, one after another by rank, on the first; nothing on others. Any length.
 std::string gathered(const std::string& text);
+
+/// The bytes of all ranks, one after another by rank, on each; `sizes` becomes how many each gave.
+std::vector<std::byte> gathered_by_all(std::span<const std::byte> own, std::vector<std::size_t>& sizes);
+
+/// Sends to each rank r the values sent[first_sent[r]] … and receives from it received[first_received[r]] …, where there are
+/// any; both know how many. first: [number() + 1].
+void exchange(const std::vector<double>& sent, const std::vector<std::size_t>& first_sent,
+              std::vector<double>& received, const std::vector<std::size_t>& first_received);
 
 /// Work of each rank by itself. What it throws on any rank (of several, the first) is thrown on all: InputError,
 /// OutputError (std::system_error too) or, of anything else, std::runtime_error.

@@ -9,6 +9,15 @@ namespace feldspar
 {
 namespace
 {
+template <int dim, class Add>
+void for_each_other_force(const Specimen<dim>& body, const Touches<dim>& touches, const Add& add)
+{
+  for (const auto& joint : body.smooth_joints)
+    add(Vector<dim>(Eigen::Map<const Vector<dim>>(joint.force.data())), joint.grain_1, joint.grain_2);
+  for (const auto& touch : touches.list())
+    add(Vector<dim>(Eigen::Map<const Vector<dim>>(touch.on_grains.force.data())), touch.grain_1, touch.grain_2);
+}
+
 /// Calls add(force on grain 2, grain 1, grain 2) for each joint, then for each smooth joint and each contact without a
 /// face.
 template <int dim, class Add>
@@ -16,10 +25,16 @@ void for_each_contact_force(const Specimen<dim>& body, const Touches<dim>& touch
 {
   for (std::size_t j = 0; j < body.joints.size(); ++j)
     add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
-  for (const auto& joint : body.smooth_joints)
-    add(Vector<dim>(Eigen::Map<const Vector<dim>>(joint.force.data())), joint.grain_1, joint.grain_2);
-  for (const auto& touch : touches.list())
-    add(Vector<dim>(Eigen::Map<const Vector<dim>>(touch.on_grains.force.data())), touch.grain_1, touch.grain_2);
+  for_each_other_force(body, touches, add);
+}
+
+/// The same, joints by their numbers: in an order that does not depend on where they are stored.
+template <int dim, class Add>
+void for_each_contact_force_by_number(const Specimen<dim>& body, const Touches<dim>& touches, const Add& add)
+{
+  for (const std::size_t j : body.joints.by_number())
+    add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
+  for_each_other_force(body, touches, add);
 }
 
 /// Calls add(σV, grain) for each grain that a wall presses: the moment of the wall's force about the centre of the grain,
@@ -91,7 +106,7 @@ std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches
         stress[two] += force * (at<dim>(grains.position, two) - centres.of(two)).transpose();
       }
   };
-  for_each_contact_force(body, touches, add);
+  for_each_contact_force_by_number(body, touches, add);
   for_each_wall_moment(body, walls, centres,
                        [&](const Tensor<dim>& moment, const std::size_t grain) { stress[grain] += moment; });
   const double solid_share = 1.0 - body.report.porosity;
@@ -118,35 +133,42 @@ Tensor<dim> boundary_stress(const Specimen<dim>& body, const Touches<dim>& touch
 }
 
 template <int dim>
-double force_across(const Specimen<dim>& body, const Touches<dim>& touches, const double height)
+double force_across(const Specimen<dim>& body, const BodyShare<dim>& share, const Touches<dim>& touches,
+                    const double height)
 {
   const BodyCentres<dim> centres(body);
   const auto& y = centres.all()[dim - 1];
-  double sum = 0.0;
+  ExactSum sum;
   const auto add = [&](const Vector<dim>& force, const std::uint32_t one, const std::uint32_t two) {
-    if ((y[one] < height) != (y[two] < height))
-      sum += y[two] < height ? -force[dim - 1] : force[dim - 1];
+    if (share.counts(one) && (y[one] < height) != (y[two] < height))
+      sum.add(y[two] < height ? -force[dim - 1] : force[dim - 1]);
   };
   for_each_contact_force(body, touches, add);
-  return sum;
+  return share.totals({sum})[0];
 }
 
 template <int dim>
-double mean_contact_force(const Specimen<dim>& body, const Touches<dim>& touches)
+double mean_contact_force(const Specimen<dim>& body, const BodyShare<dim>& share, const Touches<dim>& touches)
 {
-  double sum = 0.0;
-  std::size_t n_contacts = body.n_joints();
+  ExactSum sum;
+  std::size_t n_contacts = 0;
+  const auto add = [&](const std::uint32_t grain_1, const double force) {
+    if (!share.counts(grain_1))
+      return;
+    sum.add(force);
+    ++n_contacts;
+  };
   for (std::size_t j = 0; j < body.joints.size(); ++j)
-    sum += std::sqrt(squared_norm<dim>(body.joints.force, j));
+    add(body.joints.grain_1[j], std::sqrt(squared_norm<dim>(body.joints.force, j)));
   for (const auto& joint : body.smooth_joints)
-    sum += Eigen::Map<const Vector<dim>>(joint.force.data()).norm();
+    add(joint.grain_1, Eigen::Map<const Vector<dim>>(joint.force.data()).norm());
   for (const auto& touch : touches.list())
     if (touch.touching)
-      {
-        sum += std::hypot(touch.normal_force, simd::magnitude(touch.shear_force));
-        ++n_contacts;
-      }
-  return n_contacts > 0 ? sum / double(n_contacts) : 0.0;
+      add(touch.grain_1, std::hypot(touch.normal_force, simd::magnitude(touch.shear_force)));
+  ExactSum n;
+  n.add(double(n_contacts));
+  const std::vector<double> totals = share.totals({sum, n});
+  return totals[1] > 0.0 ? totals[0] / totals[1] : 0.0;
 }
 
 template Tensor<2> mean_stress<2>(const Specimen<2>&, const Touches<2>&, const Walls<2>&);
@@ -155,8 +177,8 @@ template std::vector<Tensor<2>> grain_stresses<2>(const Specimen<2>&, const Touc
 template std::vector<Tensor<3>> grain_stresses<3>(const Specimen<3>&, const Touches<3>&, const Walls<3>&);
 template Tensor<2> boundary_stress<2>(const Specimen<2>&, const Touches<2>&, const Images<2>&);
 template Tensor<3> boundary_stress<3>(const Specimen<3>&, const Touches<3>&, const Images<3>&);
-template double force_across<2>(const Specimen<2>&, const Touches<2>&, double);
-template double force_across<3>(const Specimen<3>&, const Touches<3>&, double);
-template double mean_contact_force<2>(const Specimen<2>&, const Touches<2>&);
-template double mean_contact_force<3>(const Specimen<3>&, const Touches<3>&);
+template double force_across<2>(const Specimen<2>&, const BodyShare<2>&, const Touches<2>&, double);
+template double force_across<3>(const Specimen<3>&, const BodyShare<3>&, const Touches<3>&, double);
+template double mean_contact_force<2>(const Specimen<2>&, const BodyShare<2>&, const Touches<2>&);
+template double mean_contact_force<3>(const Specimen<3>&, const BodyShare<3>&, const Touches<3>&);
 } // namespace feldspar

@@ -20,16 +20,20 @@ ContactWatch<dim>::ContactWatch(const Grains<dim>& grains)
 }
 
 template <int dim>
-bool ContactWatch<dim>::may_miss_contacts(const Specimen<dim>& body, const std::size_t n_own, const Walls<dim>& walls,
-                                          const std::uint64_t step, const double dt)
+bool ContactWatch<dim>::may_miss_contacts(const Specimen<dim>& body, const BodyShare<dim>& share,
+                                          const Walls<dim>& walls, const std::uint64_t step, const double dt)
 {
   double farthest = 0.0;
   double fastest = 0.0;
-  for (std::size_t i = 0; i < n_own; ++i)
+  const GrainRange own = share.grains();
+  for (std::size_t i = own.first; i < own.end; ++i)
     {
       farthest = std::max(farthest, (at<dim>(body.grains.position, i) - at<dim>(position_at_search, i)).squaredNorm());
       fastest = std::max(fastest, squared_norm<dim>(body.grains.velocity, i));
     }
+  const std::vector<double> of_all = share.largest({farthest, fastest});
+  farthest = of_all[0];
+  fastest = of_all[1];
   // Twice the way of the fastest, for what accelerates meanwhile; half the skin, for both grains move.
   const double way_of_a_step = 2.0 * dt * std::sqrt(fastest);
   const double way_left = 0.5 * widest_gap - std::sqrt(farthest);
@@ -43,8 +47,9 @@ bool ContactWatch<dim>::may_miss_contacts(const Specimen<dim>& body, const std::
       {
         steps_allowed = std::min(steps_allowed, reach / (way_of_a_step + 2.0 * dt * std::abs(wall.velocity)));
         if (walls.way_since_search(w) > 0.5 * widest_gap - reach)
-          missed = missed || walls.smallest_gap_not_listed(body, n_own, w) < reach;
+          missed = missed || walls.smallest_gap_not_listed(body, own, w) < reach;
       }
+  missed = share.any(missed);
   next_check = step + std::uint64_t(std::clamp(steps_allowed, 1.0, double(most_steps_between_checks)));
   return missed;
 }

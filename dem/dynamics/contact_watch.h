@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/walls.h"
+#include "dem/sharing/body_share.h"
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
@@ -26,8 +27,8 @@ public:
 
   /// Returns whether a pair that was not near at the last search could come into contact before the next check; sets
   /// the time of that check.
-  bool may_miss_contacts(const Specimen<dim>& body, std::size_t n_own, const Walls<dim>& walls, std::uint64_t step,
-                         double dt);
+  bool may_miss_contacts(const Specimen<dim>& body, const BodyShare<dim>& share, const Walls<dim>& walls,
+                         std::uint64_t step, double dt);
 
   template <typename Archive>
   void transfer(Archive& archive)

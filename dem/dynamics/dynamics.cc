@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -16,6 +17,27 @@ namespace feldspar
 {
 namespace
 {
+/// The first grain of those that a process has found, which all then know.
+template <int dim>
+std::optional<StrayGrain> first_of_all(const BodyShare<dim>& part, const std::optional<StrayGrain>& here)
+{
+  struct Plain
+  {
+    std::uint32_t grain;
+    std::uint32_t through_wall;
+    std::array<char, 64> motion;
+  };
+  if (!part.is_shared())
+    return here;
+  std::vector<Plain> own;
+  if (here)
+    here->motion.copy(own.emplace_back(Plain{here->grain, here->through_wall, {}}).motion.data(), 63);
+  const auto all = part.gathered(own);
+  const auto worst = std::ranges::min_element(all, {}, &Plain::through_wall); // the first of those in the open
+  return worst == all.end() ? std::nullopt
+                            : std::optional<StrayGrain>({worst->grain, worst->motion.data(), worst->through_wall > 0});
+}
+
 template <int dim>
 bool face_outlives_bonds(const Joints<dim>& joints)
 {
@@ -29,6 +51,7 @@ Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted
   , parameters(wanted)
   , zero_force(where)
   , images(body)
+  , part(body.grains.size())
   , groups(body)
   , grips(bodies().size())
   , watch(body.grains)
@@ -111,15 +134,15 @@ std::vector<Break> Dynamics<dim>::step()
     choose_time_step();
 
   add_boundary_work(dt, 0.5);
-  const double farthest_way = integrate();
+  const double farthest_way = part.copy_motions(body.grains, integrate());
   wall_set.move(dt);
   if (body.is_periodic())
     images.move(dt, body.grains);
   auto breaks = update_contacts(dt, farthest_way);
   add_boundary_work(dt, 0.5);
-  for (const auto& event : breaks)
-    ledger.released += event.released_energy;
-  faces_have_gone = !breaks.empty() && !face_outlives_bonds(body.joints);
+  for (const double energy : released)
+    ledger.released += energy;
+  faces_have_gone = !released.empty() && !face_outlives_bonds(body.joints);
   current_time += dt;
   previous_dt = dt;
   ++steps;
@@ -133,7 +156,7 @@ bool Dynamics<dim>::watch_is_over()
   if (!watch.is_due(steps))
     return false;
   check_motion();
-  return watch.may_miss_contacts(body, images.n_own(), wall_set, steps, dt);
+  return watch.may_miss_contacts(body, part, wall_set, steps, dt);
 }
 
 template <int dim>
@@ -189,7 +212,7 @@ void Dynamics<dim>::index_joints()
   for (std::size_t i = 0; i < images.n_own(); ++i)
     std::sort(joints_of.entries.begin() + joints_of.first[i], joints_of.entries.begin() + joints_of.first[i + 1],
               [&](const std::uint32_t a, const std::uint32_t b) { return number_and_end(a) < number_and_end(b); });
-  sum_order = SumOrder(joints_of, joints.size());
+  sum_order = SumOrder(joints_of, joints.size(), part.grains());
   sweep_memory = SweepMemory<dim>(joints);
 }
 
@@ -220,15 +243,16 @@ bool Dynamics<dim>::remove_lost_contacts()
           touch.zero_distance = std::min(touch.zero_distance, joints.rest_distance[j]);
           // The energy that the face stored and the contact does not is released in sliding off.
           const double overlap = std::max(0.0, touch.zero_distance - joints.rest_distance[j] - joints.opening[j]);
-          ledger.slip_of_lost_contacts +=
-            joints.slip_energy[j] + joint_energy(joints, j) - 0.5 * touch.stiffness.normal * overlap * overlap;
+          if (part.counts(touch.grain_1))
+            ledger.slip_of_lost_contacts.add(joints.slip_energy[j] + joint_energy(joints, j) -
+                                             0.5 * touch.stiffness.normal * overlap * overlap);
           touches.add(touch);
         }
     }
   // Their grains may have rolled into each other while the sides were open: they are in contact from where they stand.
   for (const auto& [ends, energy] : remove_ended_smooth_joints(body))
     {
-      ledger.slip_of_lost_contacts += energy;
+      ledger.slip_of_lost_contacts.add(energy);
       Touch<dim> touch = make_touch(body, ends.first, ends.second);
       touch.zero_distance =
         std::min(touch.zero_distance,
@@ -250,15 +274,26 @@ void Dynamics<dim>::find_contacts()
   check_motion(); // the search could not place what stands nowhere
   if (body.is_periodic())
     images.add_within(watch.skin(), body.grains);
-  touches.search(body, images, joints_of, watch.skin(), zero_force, ledger, check);
-  wall_set.search(body, images.n_own(), watch.skin(), zero_force, ledger);
+  part.bring_all(body.grains.position);
+  touches.search(body, images, part, joints_of, watch.skin(), zero_force, ledger, check);
+  wall_set.search(body, part.grains(), watch.skin(), zero_force, ledger);
   watch.note_search(body.grains);
+  agree_on_copies();
+}
+
+/// Over inertia, with the contacts that press now; where none does, of the stiffest that a grain could make [1/s²].
+template <int dim>
+double Dynamics<dim>::largest_stiffness_ratio() const
+{
+  const double of_contacts =
+    part.largest({largest_stiffness_over_inertia(body, groups, part.grains(), joints_of, touches, wall_set)})[0];
+  return of_contacts > 0.0 ? of_contacts : stiffness_over_inertia_of_touches(body);
 }
 
 template <int dim>
 void Dynamics<dim>::choose_time_step()
 {
-  const double largest = largest_stiffness_over_inertia(body, groups, images.n_own(), joints_of, touches, wall_set);
+  const double largest = largest_stiffness_ratio();
   dt = parameters.time_step_safety / std::sqrt(largest);
   if (!(std::isnormal(dt) && current_time + dt > current_time))
     throw Runaway(
@@ -271,7 +306,7 @@ void Dynamics<dim>::choose_time_step()
 template <int dim>
 void Dynamics<dim>::check_motion() const
 {
-  if (const auto stray = find_stray_grain(body, images.n_own(), wall_set, dt))
+  if (const auto stray = first_of_all(part, find_stray_grain(body, part.grains(), wall_set, dt)))
     {
       Circumstances now = circumstances();
       now.through_wall = stray->through_wall;
@@ -298,8 +333,7 @@ Circumstances Dynamics<dim>::circumstances() const
   for (std::size_t g = 0; g < grips.size(); ++g)
     fastest = std::max(fastest, grips.velocity(g).norm());
   // Contacts have not been searched for at the start.
-  const double largest =
-    started ? largest_stiffness_over_inertia(body, groups, images.n_own(), joints_of, touches, wall_set) : 0.0;
+  const double largest = started ? largest_stiffness_ratio() : 0.0;
   return {steps, dt, dt * std::sqrt(largest), fastest,
           *std::min_element(body.grains.radius.begin(), body.grains.radius.end())};
 }
@@ -310,10 +344,10 @@ template <int dim>
 double Dynamics<dim>::integrate()
 {
   const double farthest_way =
-    move_bodies(bodies(), n_bodies(), inverse_inertia, {previous_dt, dt, parameters.damping, gravity}, grips.freedom(),
+    move_bodies(bodies(), moved(), inverse_inertia, {previous_dt, dt, parameters.damping, gravity}, grips.freedom(),
                 ledger.damping_work);
   if (!gravity.isZero(0.0))
-    for (std::size_t i = 0; i < n_bodies(); ++i)
+    for (std::size_t i = 0; i < moved().size(); ++i)
       ledger.boundary_work += dt * bodies().mass[i] * gravity.dot(at<dim>(bodies().velocity, i));
   groups.carry_members(body.grains, dt);
   return body.is_periodic() || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
@@ -337,12 +371,9 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step, const doubl
   contact_made = wall_set.press(step, body) || contact_made;
   for (int c = 0; c < dim; ++c)
     for (std::size_t i = 0; i < applied_force[c].size(); ++i)
-      {
-        body.grains.force[c][i] += applied_force[c][i];
-        ledger.boundary_work += step * applied_force[c][i] * body.grains.velocity[c][i];
-      }
+      body.grains.force[c][i] += applied_force[c][i];
   groups.gather(body.grains);
-  return breaks;
+  return agree(std::move(breaks), step);
 }
 
 /// Called before and after the motion of a step with half of it each: the trapezoid of force over way.

@@ -14,6 +14,7 @@
 #include "dem/dynamics/touches.h"
 #include "dem/dynamics/walls.h"
 #include "dem/dynamics/zero_force.h"
+#include "dem/sharing/body_share.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen.h"
 #include "laboratory/energies.h"
@@ -63,9 +64,24 @@ public:
   /// work.
   void apply_forces(const Components<dim>& forces);
 
-  /// Advances by one step and returns what broke in it. Throws Runaway where numbers have gone wrong, which it looks for
+  /// Computes the body together with partners from now on, which all have it as it stands: each keeps the joints and contacts
+  /// of its own grains. Every function that is not const, and every measure, is then called by all of them at once. Results
+  /// are the same to the bit for any number of partners. Throws ParameterError for a body that cannot be shared.
+  void share(Partners& with);
+  const BodyShare<dim>& sharing() const { return part; }
+  /// Brings the motions of all grains of a shared body up to date, which otherwise are those of the own ones and their
+  /// neighbours.
+  void know_all_motions();
+  /// On the first process: the whole state of a shared body, until drop() or the next step.
+  void collect();
+  /// Drops what other processes compute.
+  void drop();
+
+  /// Advances by one step and returns what broke in it, of a shared body that which this process counts. Throws Runaway where numbers have gone wrong, which it looks for
   /// whenever it looks for contacts that may be missed.
   std::vector<Break> step();
+  /// Number of all breaks in the last step.
+  std::size_t n_breaks() const { return released.size(); }
   /// Throws Runaway where a grain moves as none can.
   void check_motion() const;
   /// The error for trouble with the whole body: it names the fastest grain, the step and the likely reason.
@@ -92,7 +108,10 @@ public:
   /// Sum of the grains' pressure on a wall [N], compression positive.
   double wall_force(std::size_t wall) const { return wall_set.force(wall); }
   /// Sum of contact forces on a grip's grains [N].
-  Vector<dim> grip_force(const std::size_t grip) const { return grips.force(grip, bodies()); }
+  Vector<dim> grip_force(const std::size_t grip) const
+  {
+    return shared_grip_forces.empty() ? grips.force(grip, bodies()) : shared_grip_forces[grip];
+  }
 
   /// Energies since the start; kinetic energy and works centred at the current time, so that they balance (theory.md
   /// §2.3).
@@ -110,6 +129,8 @@ public:
   Tensor<dim> boundary_stress() const;
   /// Force that the grains above a plane across the last axis receive from those below [N], along that axis.
   double force_across(double height) const;
+  /// The fragment of each grain, as fragments() of specimen/fragments.h; [n_grains].
+  std::vector<std::uint32_t> fragments() const;
   /// Contacts without a face that press, twice their number over that of grains.
   double faceless_coordination_number() const;
 
@@ -123,7 +144,8 @@ private:
   /// The moving bodies: the rigid groups, or else the grains (and the images of these behind them).
   const Grains<dim>& bodies() const { return groups.empty() ? body.grains : groups.bodies; }
   Grains<dim>& bodies() { return groups.empty() ? body.grains : groups.bodies; }
-  std::size_t n_bodies() const { return groups.empty() ? images.n_own() : groups.size(); }
+  /// Those that this process moves.
+  GrainRange moved() const { return groups.empty() ? part.grains() : GrainRange{0, std::uint32_t(groups.size())}; }
   double kinetic_energy(std::uint32_t one_body) const;
   double squared_unbalanced_force(std::size_t one_body) const;
   bool watch_is_over();
@@ -135,6 +157,9 @@ private:
   Circumstances circumstances() const;
   double integrate();
   std::vector<Break> update_contacts(double dt, double farthest_way);
+  std::vector<Break> agree(std::vector<Break> breaks, double dt);
+  double largest_stiffness_ratio() const;
+  void agree_on_copies();
   void add_boundary_work(double dt, double share);
 
   Specimen<dim> body;
@@ -145,6 +170,9 @@ private:
   std::function<void()> check = [] {};
 
   Images<dim> images;
+  BodyShare<dim> part;
+  std::vector<Vector<dim>> shared_grip_forces; ///< of a shared body; else empty [N]
+  std::vector<double> released; ///< by each break of the last step, by the numbers of joint and segment [J]
   RigidGroups<dim> groups;
   Touches<dim> touches;
   Walls<dim> wall_set;

@@ -1,10 +1,19 @@
 #pragma once
 
+#include "base/exact_sum.h"
+#include "base/input_error.h"
+
 #include <cstddef>
 #include <vector>
 
 namespace feldspar
 {
+/// Energies of a body that are sums over its contacts and grains [J].
+struct EnergySums
+{
+  ExactSum kinetic, strain, slip, released, damping;
+};
+
 /// The energies that only a running sum can give: works, and whatever left the body with a contact that is no more [J].
 /// Grains and contacts themselves know their present energy; Dynamics::energies() puts both together.
 struct EnergyLedger
@@ -14,12 +23,12 @@ struct EnergyLedger
   {
   }
 
-  double boundary_work = 0.0;         ///< by walls, grips, the cell and forces from outside
-  double released = 0.0;              ///< by breaking bonds
-  double slip_of_lost_contacts = 0.0; ///< dissipated by contacts that have gone
-  double strain_at_start = 0.0;       ///< stored where the test began
-  double kinetic_at_start = 0.0;      ///< of the motion that the grains were set off with
-  std::vector<double> damping_work;   ///< dissipated at each grain
+  double boundary_work = 0.0;       ///< by walls, grips, the cell and forces from outside
+  double released = 0.0;            ///< by breaking bonds
+  ExactSum slip_of_lost_contacts;   ///< dissipated by contacts that have gone; of a shared body those of this process
+  double strain_at_start = 0.0;     ///< stored where the test began
+  double kinetic_at_start = 0.0;    ///< of the motion that the grains were set off with
+  std::vector<double> damping_work; ///< dissipated at each grain
 
   template <typename Archive>
   void transfer(Archive& archive)
@@ -29,7 +38,11 @@ struct EnergyLedger
     archive.value("released_energy", released);
     archive.value("strain_energy_at_start", strain_at_start);
     archive.value("kinetic_energy_at_start", kinetic_at_start);
-    archive.value("slip_energy_of_lost_contacts", slip_of_lost_contacts);
+    std::vector lost{slip_of_lost_contacts};
+    archive.bytes("slip_energy_of_lost_contacts", lost);
+    if (lost.size() != 1)
+      throw InputError("the energy of lost contacts has another layout");
+    slip_of_lost_contacts = lost.front();
   }
 };
 } // namespace feldspar

@@ -132,10 +132,12 @@ std::size_t blocks_for_one_thread(const std::size_t n_joints)
 }
 } // namespace
 
-SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
-  : blocks_in_a_row(blocks_for_one_thread(n_joints))
+SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints, const GrainRange& these)
+  : summed(these)
+  , blocks_in_a_row(blocks_for_one_thread(n_joints))
 {
-  const std::size_t n_grains = joints_of.first.size() - 1;
+  const auto first_grain = summed.first;
+  const auto n_grains = std::uint32_t(summed.size());
   const auto is_second = [](const std::uint32_t entry) { return entry % 2 == 1; };
   const auto entries_of = [&](const std::uint32_t i) {
     return std::span(joints_of.entries).subspan(joints_of.first[i], joints_of.first[i + 1] - joints_of.first[i]);
@@ -146,7 +148,7 @@ SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
   first_behind.assign(after_all + 2, 0);
   for (std::uint32_t i = 0; i < n_grains; ++i)
     {
-      if (const auto entries = entries_of(i); !entries.empty())
+      if (const auto entries = entries_of(first_grain + i); !entries.empty())
         {
           const auto [least, largest] = std::ranges::minmax_element(entries);
           const std::size_t first = *least / 2 / block_size, last = *largest / 2 / block_size;
@@ -159,7 +161,7 @@ SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
   grain.resize(n_grains);
   auto next = first_behind;
   for (std::uint32_t i = 0; i < n_grains; ++i)
-    grain[next[behind[i]]++] = i;
+    grain[next[behind[i]]++] = first_grain + i;
 
   // Number of neighbouring grains whose responses stay in the cache while they are summed in this order.
   constexpr std::uint32_t n_neighbours = 64;
@@ -212,14 +214,16 @@ void sum_remaining_forces(Specimen<dim>& body, const SumOrder& order, const Touc
       for (const std::uint32_t k : touches.touching())
         {
           const Touch<dim>& touch = touches.list()[k];
-          add_touch(touch, false, touch.grain_1, grains);
-          add_touch(touch, true, touches.owner_2(k), grains);
+          if (order.summed.has(touch.grain_1))
+            add_touch(touch, false, touch.grain_1, grains);
+          if (const std::uint32_t owner = touches.owner_2(k); order.summed.has(owner))
+            add_touch(touch, true, owner, grains);
         }
       return;
     }
   const Incidence& touches_of = touches.incidence();
   for_each_block(n_grains, [&](std::size_t, const std::size_t begin, const std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = order.summed.first + begin; i < order.summed.first + end; ++i)
       for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
         if (const std::uint32_t entry = touches_of.entries[e]; touches.is_touching(entry / 2))
           add_touch(touches.list()[entry / 2], entry % 2, std::uint32_t(i), grains);

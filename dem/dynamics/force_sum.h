@@ -16,13 +16,14 @@ namespace feldspar
 struct SumOrder
 {
   SumOrder() = default;
-  SumOrder(const Incidence& joints_of, std::size_t n_joints);
+  SumOrder(const Incidence& joints_of, std::size_t n_joints, const GrainRange& summed);
 
+  GrainRange summed{0, 0};                 ///< the grains that get sums
   std::size_t blocks_in_a_row = 1;         ///< of joints, that one thread sweeps
   std::vector<std::uint32_t> first_behind; ///< place of the first grain behind each block, and of those after all
   std::vector<std::uint32_t> grain;
-  std::vector<std::uint32_t> first_as_two; ///< of each grain among the joints; [n_grains + 1]
-  std::vector<std::uint32_t> first_as_one; ///< [n_grains]
+  std::vector<std::uint32_t> first_as_two; ///< of each grain among the joints; [n + 1]
+  std::vector<std::uint32_t> first_as_one; ///< [n]
   std::vector<std::uint32_t> joint;
 };
 

@@ -37,6 +37,7 @@ public:
   const std::vector<double>& freedom() const { return free; }
   const Vector<dim>& velocity(const std::size_t grip) const { return grips[grip].velocity; }
 
+  const std::vector<std::uint32_t>& members(const std::size_t grip) const { return grips[grip].members; }
   /// Sum of the forces on a grip's grains [N].
   Vector<dim> force(const std::size_t grip, const Grains<dim>& grains) const
   {

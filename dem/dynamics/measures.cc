@@ -25,45 +25,66 @@ Energies Dynamics<dim>::energies() const
 {
   const auto& grains = bodies();
   const auto& joints = body.joints;
+  const auto [first, end] = moved();
+  EnergySums sums;
   Energies sum;
   if (steps == 0 && !started)
     {
-      for (std::uint32_t i = 0; i < n_bodies(); ++i)
-        sum.kinetic += kinetic_energy(i);
-      sum.kinetic_at_start = sum.kinetic;
+      for (std::uint32_t i = first; i < end; ++i)
+        sums.kinetic.add(kinetic_energy(i));
+      sum.kinetic = sum.kinetic_at_start = part.totals({sums.kinetic})[0];
       return sum;
     }
   sum.boundary_work = ledger.boundary_work;
-  sum.released = ledger.released;
-  sum.slip = ledger.slip_of_lost_contacts;
   sum.kinetic_at_start = ledger.kinetic_at_start;
-  sum.strain = -ledger.strain_at_start;
+  if (part.is_first())
+    {
+      sums.released.add(ledger.released);
+      sums.strain.add(-ledger.strain_at_start);
+    }
+  sums.slip.add(ledger.slip_of_lost_contacts);
 
   for (std::size_t j = 0; j < joints.size(); ++j)
-    {
-      sum.slip += joints.slip_energy[j];
-      sum.strain += joint_energy(joints, j);
-      sum.released += dissipated_by_bonds(joints, j);
-    }
-  sum = with_smooth_joints(wall_set.added_to(touches.added_to(sum), body), body);
+    if (part.counts(joints.grain_1[j]))
+      {
+        sums.slip.add(joints.slip_energy[j]);
+        sums.strain.add(joint_energy(joints, j));
+        sums.released.add(dissipated_by_bonds(joints, j));
+      }
+  touches.add_energies(sums, part);
+  wall_set.add_energies(sums, body);
+  add_smooth_energies(body, sums.strain, sums.slip);
 
   // ½ m v(n-½)·v(n+½), and half of the coming step's damping: the values at the current time.
   const double kick = 0.5 * (previous_dt + dt);
+  double kinetic = 0.0, damping = 0.0; // of one body
   const auto centre = [&](const double force, const double inertia, const double velocity) {
     const double damping_force = -parameters.damping * std::abs(force) * simd::sign(velocity);
-    sum.kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
-    sum.damping -= 0.5 * damping_force * previous_dt * velocity;
+    kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
+    damping -= 0.5 * damping_force * previous_dt * velocity;
   };
-  for (std::size_t i = 0; i < n_bodies(); ++i)
+  for (std::size_t i = first; i < end; ++i)
     {
-      sum.damping += ledger.damping_work[i];
+      kinetic = 0.0;
+      damping = ledger.damping_work[i];
       if (grips.holds(i))
-        continue;
+        {
+          sums.damping.add(damping);
+          continue;
+        }
       for (int c = 0; c < dim; ++c)
         centre(grains.force[c][i] + grains.mass[i] * gravity[c], grains.mass[i], grains.velocity[c][i]);
       for (int c = 0; c < n_rotations<dim>; ++c)
         centre(grains.couple[c][i], grains.moment_of_inertia[i], grains.spin[c][i]);
+      sums.kinetic.add(kinetic);
+      sums.damping.add(damping);
     }
+  const std::vector<double> totals = part.totals({sums.kinetic, sums.strain, sums.slip, sums.released, sums.damping});
+  sum.kinetic = totals[0];
+  sum.strain = totals[1];
+  sum.slip = totals[2];
+  sum.released = totals[3];
+  sum.damping = totals[4];
   return sum;
 }
 
@@ -83,26 +104,26 @@ double Dynamics<dim>::squared_unbalanced_force(const std::size_t i) const
 template <int dim>
 double Dynamics<dim>::unbalanced_force_ratio() const
 {
-  double unbalanced = 0.0;
-  std::size_t n_free = 0;
-  for (std::size_t i = 0; i < n_bodies(); ++i)
+  ExactSum unbalanced, n_free;
+  for (std::size_t i = moved().first; i < moved().end; ++i)
     if (!grips.holds(i))
       {
-        unbalanced += std::sqrt(squared_unbalanced_force(i));
-        ++n_free;
+        unbalanced.add(std::sqrt(squared_unbalanced_force(i)));
+        n_free.add(1.0);
       }
-  const double carried = mean_contact_force(body, touches);
-  return carried > 0.0 && n_free > 0 ? unbalanced / double(n_free) / carried : 0.0;
+  const std::vector<double> totals = part.totals({unbalanced, n_free});
+  const double carried = mean_contact_force(body, part, touches);
+  return carried > 0.0 && totals[1] > 0.0 ? totals[0] / totals[1] / carried : 0.0;
 }
 
 template <int dim>
 double Dynamics<dim>::largest_unbalanced_force_ratio() const
 {
   double largest = 0.0;
-  for (std::size_t i = 0; i < n_bodies(); ++i)
+  for (std::size_t i = moved().first; i < moved().end; ++i)
     largest = std::max(largest, squared_unbalanced_force(i));
-  const double carried = mean_contact_force(body, touches);
-  return carried > 0.0 ? std::sqrt(largest) / carried : 0.0;
+  const double carried = mean_contact_force(body, part, touches);
+  return carried > 0.0 ? std::sqrt(part.largest({largest})[0]) / carried : 0.0;
 }
 
 template <int dim>
@@ -114,7 +135,17 @@ Tensor<dim> Dynamics<dim>::mean_stress() const
 template <int dim>
 std::vector<Tensor<dim>> Dynamics<dim>::grain_stresses() const
 {
-  return feldspar::grain_stresses(body, touches, wall_set);
+  auto stresses = feldspar::grain_stresses(body, touches, wall_set);
+  if (!part.is_shared())
+    return stresses;
+  const auto [first, end] = part.grains();
+  std::vector<double> components;
+  for (std::uint32_t i = first; i < end; ++i)
+    components.insert(components.end(), stresses[i].data(), stresses[i].data() + stresses[i].size());
+  const std::vector<double> all = part.gathered(components);
+  for (std::size_t i = 0; i < stresses.size(); ++i)
+    stresses[i] = Eigen::Map<const Tensor<dim>>(&all[i * stresses[i].size()]);
+  return stresses;
 }
 
 template <int dim>
@@ -126,7 +157,7 @@ Tensor<dim> Dynamics<dim>::boundary_stress() const
 template <int dim>
 double Dynamics<dim>::force_across(const double height) const
 {
-  return feldspar::force_across(body, touches, height);
+  return feldspar::force_across(body, part, touches, height);
 }
 
 template <int dim>

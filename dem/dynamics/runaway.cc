@@ -34,7 +34,7 @@ std::string likely_reason(const Circumstances& now)
 } // namespace
 
 template <int dim>
-std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const std::size_t n_own, const Walls<dim>& walls,
+std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const GrainRange& own, const Walls<dim>& walls,
                                            const double dt)
 {
   const auto& grains = body.grains;
@@ -50,9 +50,9 @@ std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const std:
   };
   const auto is_slow = [&](const std::size_t i) { return moves(i) + rolls(i) <= grains.radius[i] * grains.radius[i]; };
   std::size_t n_objections = 0; // counted without branches: nearly always there are none
-  for (std::size_t i = 0; i < n_own; ++i)
+  for (std::size_t i = own.first; i < own.end; ++i)
     n_objections += std::size_t(!is_near(i)) + std::size_t(!is_slow(i));
-  for (std::uint32_t i = 0; i < n_own && n_objections > 0; ++i)
+  for (std::uint32_t i = own.first; i < own.end && n_objections > 0; ++i)
     {
       if (!is_near(i))
         return StrayGrain{i, "stands nowhere near the body"};
@@ -76,6 +76,6 @@ std::string describe_runaway(const std::string& trouble, const Circumstances& ci
                      likely_reason(circumstances));
 }
 
-template std::optional<StrayGrain> find_stray_grain<2>(const Specimen<2>&, std::size_t, const Walls<2>&, double);
-template std::optional<StrayGrain> find_stray_grain<3>(const Specimen<3>&, std::size_t, const Walls<3>&, double);
+template std::optional<StrayGrain> find_stray_grain<2>(const Specimen<2>&, const GrainRange&, const Walls<2>&, double);
+template std::optional<StrayGrain> find_stray_grain<3>(const Specimen<3>&, const GrainRange&, const Walls<3>&, double);
 } // namespace feldspar

@@ -25,11 +25,11 @@ struct StrayGrain
   bool through_wall = false;
 };
 
-/// The first of the first n_own grains that goes farther in a step of dt [s] than its radius, in translation or rolling
+/// The first of these grains that goes farther in a step of dt [s] than its radius, in translation or rolling
 /// (rock waves move grains by millionths of that, and whoever goes so far has passed his neighbours before a force could
 /// stop him); whose coordinates are no numbers or out of reach; or whose centre has gone through a wall.
 template <int dim>
-std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, std::size_t n_own, const Walls<dim>& walls,
+std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const GrainRange& own, const Walls<dim>& walls,
                                            double dt);
 
 /// The circumstances in which numbers went wrong.

@@ -9,15 +9,15 @@
 namespace feldspar
 {
 template <int dim>
-double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGroups<dim>& groups,
-                                      const std::size_t n_own, const Incidence& joints_of, const Touches<dim>& touches,
-                                      const Walls<dim>& walls)
+double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGroups<dim>& groups, const GrainRange& own,
+                                      const Incidence& joints_of, const Touches<dim>& touches, const Walls<dim>& walls)
 {
   const auto& grains = body.grains;
   const auto& joints = body.joints;
   const Incidence& touches_of = touches.incidence();
   const Grains<dim>& bodies = groups.empty() ? grains : groups.bodies;
-  const std::size_t n_bodies = groups.empty() ? n_own : groups.size();
+  const GrainRange moved = groups.empty() ? own : GrainRange{0, std::uint32_t(groups.size())};
+  const std::size_t n_bodies = groups.empty() ? grains.size() : groups.size();
   Components<dim> k;
   resize<dim>(k, n_bodies);
   Components<n_rotations<dim>> k_turning;
@@ -53,9 +53,9 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   };
   // To each grain come its joints and then its contacts by their numbers, whether it is grains or contacts that are
   // gone through.
-  const bool by_touches = groups.empty() && stays_on_this_thread(n_own);
+  const bool by_touches = groups.empty() && stays_on_this_thread(own.size());
   const auto add_contacts = [&](const auto& law, const std::size_t begin, const std::size_t end) {
-    for (auto i = std::uint32_t(begin); i < end; ++i)
+    for (auto i = own.first + std::uint32_t(begin); i < own.first + end; ++i)
       {
         for (auto e = joints_of.first[i]; e < joints_of.first[i + 1]; ++e)
           {
@@ -74,11 +74,11 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
       }
   };
   if (groups.empty())
-    for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for_each_block(own.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
       std::visit([&](const auto& law) { add_contacts(law, begin, end); }, joints.law);
     });
   else // members of one group may be of several blocks
-    std::visit([&](const auto& law) { add_contacts(law, 0, n_own); }, joints.law);
+    std::visit([&](const auto& law) { add_contacts(law, 0, own.size()); }, joints.law);
   if (by_touches)
     for (std::size_t k = 0; k < touches.list().size(); ++k)
       if (touches.is_touching(k))
@@ -109,20 +109,26 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   });
 
   double largest = 0.0;
-  for (std::size_t i = 0; i < n_bodies; ++i)
+  for (std::size_t i = moved.first; i < moved.end; ++i)
     {
       for (int c = 0; c < dim; ++c)
         largest = std::max(largest, k[c][i] / bodies.mass[i]);
       for (int c = 0; c < n_rotations<dim>; ++c)
         largest = std::max(largest, k_turning[c][i] / bodies.moment_of_inertia[i]);
     }
-  if (largest == 0.0)
-    for (std::size_t i = 0; i < n_own; ++i)
-      {
-        const double radius = grains.radius[i];
-        const double k_n = touch_stiffness<dim>(body.particle_contact.modulus, radius, radius, body.thickness);
-        largest = std::max(largest, 4.0 * k_n / grains.mass[i]);
-      }
+  return largest;
+}
+
+template <int dim>
+double stiffness_over_inertia_of_touches(const Specimen<dim>& body)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < body.grains.size(); ++i)
+    {
+      const double radius = body.grains.radius[i];
+      const double k_n = touch_stiffness<dim>(body.particle_contact.modulus, radius, radius, body.thickness);
+      largest = std::max(largest, 4.0 * k_n / body.grains.mass[i]);
+    }
   return largest;
 }
 
@@ -137,14 +143,17 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body)
     [](const std::uint32_t grain) { return grain; });
   Touches<dim> none;
   none.number(Images<dim>(body));
-  return largest_stiffness_over_inertia(body, RigidGroups<dim>(body), body.grains.size(), joints_of, none,
-                                        Walls<dim>());
+  const double of_joints = largest_stiffness_over_inertia(
+    body, RigidGroups<dim>(body), {0, std::uint32_t(body.grains.size())}, joints_of, none, Walls<dim>());
+  return of_joints > 0.0 ? of_joints : stiffness_over_inertia_of_touches(body);
 }
 
+template double stiffness_over_inertia_of_touches<2>(const Specimen<2>&);
+template double stiffness_over_inertia_of_touches<3>(const Specimen<3>&);
 template double largest_stiffness_over_inertia<2>(const Specimen<2>&);
 template double largest_stiffness_over_inertia<3>(const Specimen<3>&);
-template double largest_stiffness_over_inertia<2>(const Specimen<2>&, const RigidGroups<2>&, std::size_t,
+template double largest_stiffness_over_inertia<2>(const Specimen<2>&, const RigidGroups<2>&, const GrainRange&,
                                                   const Incidence&, const Touches<2>&, const Walls<2>&);
-template double largest_stiffness_over_inertia<3>(const Specimen<3>&, const RigidGroups<3>&, std::size_t,
+template double largest_stiffness_over_inertia<3>(const Specimen<3>&, const RigidGroups<3>&, const GrainRange&,
                                                   const Incidence&, const Touches<3>&, const Walls<3>&);
 } // namespace feldspar

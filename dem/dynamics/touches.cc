@@ -41,6 +41,42 @@ bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
   return (body.groups_are_rigid && body.groups[pair.first] == body.groups[pair.second]) ||
          (found != joints.end() && found->ends() == pair) || std::ranges::binary_search(body.kept_apart, pair);
 }
+
+/// pairs_within() that concern this process, in the same order: of a shared body those of its own grains and the others near
+/// the box around them.
+template <int dim>
+std::vector<GrainPair> pairs_of(const BodyShare<dim>& share, const Grains<dim>& grains, const double skin,
+                                const std::function<void()>& check)
+{
+  if (!share.is_shared() || share.grains().size() == 0)
+    return share.is_shared() ? std::vector<GrainPair>() : pairs_within(grains, skin, check);
+  const auto [first, end] = share.grains();
+  const double reach = 2.0 * *std::ranges::max_element(grains.radius) + skin;
+  Vector<dim> low, high;
+  for (int c = 0; c < dim; ++c)
+    {
+      const auto [least, most] =
+        std::minmax_element(grains.position[c].begin() + first, grains.position[c].begin() + end);
+      low[c] = *least - reach;
+      high[c] = *most + reach;
+    }
+  std::vector<std::uint32_t> near;
+  Grains<dim> part;
+  for (std::uint32_t i = 0; i < grains.size(); ++i)
+    if (const Vector<dim> place = at<dim>(grains.position, i);
+        (place.array() >= low.array()).all() && (place.array() <= high.array()).all())
+      {
+        near.push_back(i);
+        part.radius.push_back(grains.radius[i]);
+        for (int c = 0; c < dim; ++c)
+          part.position[c].push_back(place[c]);
+      }
+  std::vector<GrainPair> pairs;
+  for (const auto& [one, two] : pairs_within(part, skin, check))
+    if (const GrainPair pair(near[one], near[two]); share.concerns(pair))
+      pairs.push_back(pair);
+  return pairs;
+}
 } // namespace
 
 /// Finds the place of a pair in the list, or the place where it would be inserted.
@@ -81,9 +117,9 @@ void Touches<dim>::forget_ways()
 }
 
 template <int dim>
-void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, const Incidence& joints_of,
-                          const double skin, const ZeroForce zero_force, EnergyLedger& ledger,
-                          const std::function<void()>& check)
+void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, const BodyShare<dim>& share,
+                          const Incidence& joints_of, const double skin, const ZeroForce zero_force,
+                          EnergyLedger& ledger, const std::function<void()>& check)
 {
   const auto& grains = body.grains;
   const auto& joints = body.joints;
@@ -92,7 +128,7 @@ void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, 
   std::uint32_t marked = std::numeric_limits<std::uint32_t>::max();
   constexpr std::size_t pairs_between_checks = 100000;
   std::size_t n_checked = 0;
-  for (const auto& [one, two] : pairs_within(grains, skin, check))
+  for (const auto& [one, two] : pairs_of(share, grains, skin, check))
     {
       if (n_checked++ % pairs_between_checks == 0)
         check();
@@ -128,8 +164,8 @@ void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, 
     {
       while (next < found.size() && found[next].ends() < touch.ends())
         ++next;
-      if (next == found.size() || found[next].ends() != touch.ends())
-        ledger.slip_of_lost_contacts += touch.slip_energy;
+      if ((next == found.size() || found[next].ends() != touch.ends()) && share.counts(touch.grain_1))
+        ledger.slip_of_lost_contacts.add(touch.slip_energy);
     }
   touches = std::move(found);
   check();
@@ -226,16 +262,16 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
 }
 
 template <int dim>
-Energies Touches<dim>::added_to(Energies sum) const
+void Touches<dim>::add_energies(EnergySums& sums, const BodyShare<dim>& share) const
 {
   for (const auto& touch : touches)
-    {
-      sum.slip += touch.slip_energy;
-      sum.strain += 0.5 * touch.normal_force * touch.normal_force / touch.stiffness.normal;
-      for (const double shear : touch.shear_force)
-        sum.strain += 0.5 * shear * shear / touch.stiffness.shear;
-    }
-  return sum;
+    if (share.counts(touch.grain_1))
+      {
+        sums.slip.add(touch.slip_energy);
+        sums.strain.add(0.5 * touch.normal_force * touch.normal_force / touch.stiffness.normal);
+        for (const double shear : touch.shear_force)
+          sums.strain.add(0.5 * shear * shear / touch.stiffness.shear);
+      }
 }
 
 template Touch<2> make_touch<2>(const Specimen<2>&, std::uint32_t, std::uint32_t);

@@ -6,14 +6,15 @@
 #include "dem/dynamics/zero_force.h"
 #include "dem/laws/contact_motion.h"
 #include "dem/laws/linear_contact_law.h"
+#include "dem/sharing/body_share.h"
 #include "dem/specimen/neighbours.h"
 #include "dem/specimen/specimen.h"
-#include "laboratory/energies.h"
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -55,9 +56,13 @@ public:
   /// Numbers of the contacts that were closed at the last update(), ascending; none from number() to the next one.
   std::span<const std::uint32_t> touching() const { return std::span(touching_ones).first(n_touching); }
 
-  /// Notes the pairs within `skin` [m]; those with a face are told by the joints. `check` as of pairs_within().
-  void search(const Specimen<dim>& body, const Images<dim>& images, const Incidence& joints_of, double skin,
-              ZeroForce zero_force, EnergyLedger& ledger, const std::function<void()>& check);
+  /// Notes the pairs within `skin` [m] that concern this process; those with a face are told by the joints. `check` as of
+  /// pairs_within().
+  void search(const Specimen<dim>& body, const Images<dim>& images, const BodyShare<dim>& share,
+              const Incidence& joints_of, double skin, ZeroForce zero_force, EnergyLedger& ledger,
+              const std::function<void()>& check);
+  /// Takes these, sorted by their grains, for all there are; number() before the next update().
+  void take(std::vector<Touch<dim>> all) { touches = std::move(all); }
   /// A pair that has lost its face; number() before the next update().
   void add(const Touch<dim>& touch);
   void number(const Images<dim>& images);
@@ -67,8 +72,8 @@ public:
   /// than `farthest_way` [m] since the last update() or number(); infinite where that is not known.
   bool update(const Grains<dim>& grains, double friction, double dt, double farthest_way);
 
-  /// `sum` with what the contacts store and have dissipated.
-  Energies added_to(Energies sum) const;
+  /// Adds what the contacts store and have dissipated.
+  void add_energies(EnergySums& sums, const BodyShare<dim>& share) const;
 
   /// number() before the next step.
   template <typename Archive>

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 namespace feldspar
@@ -147,6 +148,8 @@ double Walls<dim>::stiffness(const Specimen<dim>& body, const double radius)
 template <int dim>
 double Walls<dim>::stiffness_in_touch(const Specimen<dim>& body, const std::size_t wall) const
 {
+  if (!shared_stiffnesses.empty())
+    return shared_stiffnesses[wall];
   double sum = 0.0;
   for (const auto& touch : touches[wall])
     if (touch.overlap > 0.0)
@@ -155,8 +158,35 @@ double Walls<dim>::stiffness_in_touch(const Specimen<dim>& body, const std::size
 }
 
 template <int dim>
-void Walls<dim>::search(const Specimen<dim>& body, const std::size_t n_own, const double skin,
-                        const ZeroForce zero_force, EnergyLedger& ledger)
+std::vector<double> Walls<dim>::pressures(const std::size_t wall) const
+{
+  std::vector<double> all;
+  for (const auto& touch : touches[wall])
+    all.push_back(touch.normal_force);
+  return all;
+}
+
+template <int dim>
+std::vector<double> Walls<dim>::stiffnesses_in_touch(const Specimen<dim>& body, const std::size_t wall) const
+{
+  std::vector<double> all;
+  for (const auto& touch : touches[wall])
+    all.push_back(touch.overlap > 0.0 ? stiffness(body, body.grains.radius[touch.grain]) : 0.0);
+  return all;
+}
+
+template <int dim>
+void Walls<dim>::set_sums(const std::size_t wall, const std::vector<double>& pressures,
+                          const std::vector<double>& stiffnesses)
+{
+  forces[wall] = std::accumulate(pressures.begin(), pressures.end(), 0.0);
+  shared_stiffnesses.resize(walls.size());
+  shared_stiffnesses[wall] = std::accumulate(stiffnesses.begin(), stiffnesses.end(), 0.0);
+}
+
+template <int dim>
+void Walls<dim>::search(const Specimen<dim>& body, const GrainRange& own, const double skin, const ZeroForce zero_force,
+                        EnergyLedger& ledger)
 {
   const auto& radius = body.grains.radius;
   const bool placing = zero_force == ZeroForce::as_placed;
@@ -168,9 +198,9 @@ void Walls<dim>::search(const Specimen<dim>& body, const std::size_t n_own, cons
       // Energy of a grain that is still pressed where it crosses the end of a plate becomes vibration, which is soon
       // damped.
       const auto lose = [&](const WallTouch<dim>& touch) {
-        ledger.slip_of_lost_contacts += touch.slip_energy + stored_energy(body, touch);
+        ledger.slip_of_lost_contacts.add(touch.slip_energy + stored_energy(body, touch));
       };
-      for (std::uint32_t i = 0; i < n_own; ++i)
+      for (std::uint32_t i = own.first; i < own.end; ++i)
         {
           for (; known != before.end() && known->grain < i; ++known)
             lose(*known);
@@ -216,12 +246,12 @@ double Walls<dim>::way_since_search(const std::size_t wall) const
 }
 
 template <int dim>
-double Walls<dim>::smallest_gap_not_listed(const Specimen<dim>& body, const std::size_t n_own,
+double Walls<dim>::smallest_gap_not_listed(const Specimen<dim>& body, const GrainRange& own,
                                            const std::size_t wall) const
 {
   double smallest = std::numeric_limits<double>::max();
   auto listed = touches[wall].begin(); // in the order of the grains
-  for (std::uint32_t i = 0; i < n_own; ++i)
+  for (std::uint32_t i = own.first; i < own.end; ++i)
     if (listed != touches[wall].end() && listed->grain == i)
       ++listed;
     else if (is_above(body, walls[wall], i) && !is_past(body, walls[wall], i))
@@ -280,6 +310,7 @@ bool Walls<dim>::press(const double dt, Specimen<dim>& body)
           touch.overlap = std::max(0.0, overlap);
           touch.shear_force = response.shear_force;
           touch.slip_energy += response.slip_energy;
+          touch.normal_force = response.normal_force;
           if (wall.round)
             set<dim>(grains.force, i,
                      at<dim>(grains.force, i) + wall.side * response.normal_force * wall_direction(body, wall, i));
@@ -295,13 +326,12 @@ bool Walls<dim>::press(const double dt, Specimen<dim>& body)
 }
 
 template <int dim>
-Energies Walls<dim>::added_to(Energies sum, const Specimen<dim>& body) const
+void Walls<dim>::add_energies(EnergySums& sums, const Specimen<dim>& body) const
 {
   for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
-    sum.slip += touch.slip_energy;
-    sum.strain += stored_energy(body, touch);
+    sums.slip.add(touch.slip_energy);
+    sums.strain.add(stored_energy(body, touch));
   });
-  return sum;
 }
 
 template Vector<2> wall_direction<2>(const Specimen<2>&, const Wall&, std::uint32_t);

@@ -3,13 +3,13 @@
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/zero_force.h"
 #include "dem/specimen/specimen.h"
-#include "laboratory/energies.h"
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -68,9 +68,10 @@ template <int dim>
 struct WallTouch
 {
   std::uint32_t grain;
-  double zero_distance; ///< distance from the wall below which it presses [m]; beyond its radius on a bed
-  double lever = 0.0;   ///< from the middle of a plate that pivots, where it came to the plate [m]
-  double overlap = 0.0; ///< [m]
+  double zero_distance;      ///< distance from the wall below which it presses [m]; beyond its radius on a bed
+  double lever = 0.0;        ///< from the middle of a plate that pivots, where it came to the plate [m]
+  double overlap = 0.0;      ///< [m]
+  double normal_force = 0.0; ///< at the last press() [N]
   std::array<double, dim - 1> shear_force{};
   double slip_energy = 0.0;
 };
@@ -88,6 +89,12 @@ public:
 
   /// Sum of the grains' pressure on a wall [N], compression positive.
   double force(const std::size_t wall) const { return forces[wall]; }
+  /// Of the grains of this process, one after another: the pressure of each on a wall [N].
+  std::vector<double> pressures(std::size_t wall) const;
+  /// Of each the normal stiffness where it presses, else 0 [N/m].
+  std::vector<double> stiffnesses_in_touch(const Specimen<dim>& body, std::size_t wall) const;
+  /// Sets the force on a wall and the stiffness of its contacts to the sums of those of all processes.
+  void set_sums(std::size_t wall, const std::vector<double>& pressures, const std::vector<double>& stiffnesses);
   /// Normal stiffness of a grain at a wall [N/m].
   static double stiffness(const Specimen<dim>& body, double radius);
   /// Sum of the normal stiffnesses of a wall's pressing contacts [N/m].
@@ -105,13 +112,17 @@ public:
   /// Notes the grains within `skin` [m] of each wall, and on a bed those that were placed there; images, which stand behind
   /// the body's own, are none of them. A plate that pivots keeps the grains that press it, also where they leave its
   /// extent, and the others that it has until they are half its width away from it.
-  void search(const Specimen<dim>& body, std::size_t n_own, double skin, ZeroForce zero_force, EnergyLedger& ledger);
+  void search(const Specimen<dim>& body, const GrainRange& own, double skin, ZeroForce zero_force,
+              EnergyLedger& ledger);
+  /// Takes these grains, by number, for all near a wall.
+  void take(const std::size_t wall, std::vector<WallTouch<dim>> all) { touches[wall] = std::move(all); }
+  const std::vector<WallTouch<dim>>& near(const std::size_t wall) const { return touches[wall]; }
   /// Forgets them.
   void clear();
   /// Distance that a wall has moved since the last search, at the ends of a plate that has tilted [m].
   double way_since_search(std::size_t wall) const;
   /// The smallest gap between a wall and the grains that were not near it at the last search [m].
-  double smallest_gap_not_listed(const Specimen<dim>& body, std::size_t n_own, std::size_t wall) const;
+  double smallest_gap_not_listed(const Specimen<dim>& body, const GrainRange& own, std::size_t wall) const;
 
   void move(const double dt)
   {
@@ -121,8 +132,8 @@ public:
   /// Presses the grains, whose forces and couples it adds to; returns whether one has come into contact.
   bool press(double dt, Specimen<dim>& body);
 
-  /// `sum` with what the contacts store and have dissipated.
-  Energies added_to(Energies sum, const Specimen<dim>& body) const;
+  /// Adds what the contacts store and have dissipated.
+  void add_energies(EnergySums& sums, const Specimen<dim>& body) const;
 
   template <typename Archive>
   void transfer(Archive& archive)
@@ -142,6 +153,7 @@ private:
   std::vector<Wall> walls;
   std::vector<std::vector<WallTouch<dim>>> touches; ///< of each wall, by grain
   std::vector<double> forces;
+  std::vector<double> shared_stiffnesses; ///< of the contacts of each wall with a shared body [N/m]; else empty
   std::vector<double> position_at_search; ///< [m]
   std::vector<double> tilt_at_search;     ///< [rad]
 };

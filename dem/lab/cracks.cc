@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace feldspar
 {
@@ -53,6 +54,27 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
   return result;
 }
 
+template <int dim>
+std::vector<CrackBetween> cracks_of(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks,
+                                    const double axial_strain)
+{
+  std::vector<CrackBetween> cracks;
+  for (const Break& event : breaks)
+    {
+      const auto [one, two] = ends_of(dynamics.specimen(), event);
+      cracks.push_back({crack(dynamics, event, axial_strain), one, two});
+    }
+  if (dynamics.sharing().is_shared() && dynamics.n_breaks() > 0)
+    {
+      cracks = dynamics.sharing().gathered(cracks);
+      std::ranges::sort(cracks, {},
+                        [](const CrackBetween& one) { return std::pair(one.crack.joint, one.crack.segment); });
+    }
+  return cracks;
+}
+
+template decltype(cracks_of<2>) cracks_of<2>;
+template decltype(cracks_of<3>) cracks_of<3>;
 template GrainPair ends_of<2>(const Specimen<2>&, const Break&);
 template GrainPair ends_of<3>(const Specimen<3>&, const Break&);
 template Crack crack<2>(const Dynamics<2>&, const Break&, double);

@@ -1,7 +1,6 @@
 #include "dem/lab/emission.h"
 
 #include "base/system/hdf5_archive.h"
-#include "dem/lab/cracks.h"
 #include "dem/lab/servo.h"
 #include "dem/laws/flat_joint.h"
 
@@ -169,13 +168,40 @@ void EmissionWatch<dim>::enclose(Source& source) const
   source.radius = least_radius + farthest;
 }
 
+/// Sets the moments of segments whose joints are there; of a shared body the process that counts a joint measures it.
 template <int dim>
-void EmissionWatch<dim>::measure(const Dynamics<dim>& dynamics, Source& source)
+void EmissionWatch<dim>::measure(const Dynamics<dim>& dynamics, const std::vector<BrokenSegment*>& segments)
 {
-  for (BrokenSegment& broken : source.broken)
-    if (const auto moment = moment_of(dynamics, broken))
-      Eigen::Map<Tensor<dim>>(broken.moment.data()) = *moment;
-  keep_larger(events[source.event].moment, sum_of(source));
+  if (segments.empty())
+    return;
+  std::vector<double> numbers, moments; // of those measured
+  for (std::size_t k = 0; k < segments.size(); ++k)
+    if (dynamics.sharing().counts(segments[k]->grain_1))
+      if (const auto moment = moment_of(dynamics, *segments[k]))
+        {
+          numbers.push_back(double(k));
+          moments.insert(moments.end(), moment->data(), moment->data() + moment->size());
+        }
+  const auto of_all = dynamics.sharing().gathered_lists({numbers, moments});
+  auto next = of_all[1].begin();
+  for (const double number : of_all[0])
+    {
+      Moment& moment = segments[std::size_t(number)]->moment;
+      std::copy_n(next, moment.size(), moment.begin());
+      next += std::ptrdiff_t(moment.size());
+    }
+}
+
+template <int dim>
+void EmissionWatch<dim>::measure(const Dynamics<dim>& dynamics, const std::vector<Source*>& those)
+{
+  std::vector<BrokenSegment*> segments;
+  for (Source* source : those)
+    for (BrokenSegment& broken : source->broken)
+      segments.push_back(&broken);
+  measure(dynamics, segments);
+  for (const Source* source : those)
+    keep_larger(events[source->event].moment, sum_of(*source));
 }
 
 template <int dim>
@@ -188,33 +214,45 @@ auto EmissionWatch<dim>::sum_of(const Source& source) -> Moment
 }
 
 template <int dim>
-void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks,
-                                std::vector<Crack>& cracks)
+void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector<CrackBetween>& of_step,
+                                std::vector<Crack>& all)
 {
   const double now = dynamics.time();
-  for (Source& source : sources)
-    if (source.end < now)
-      measure(dynamics, source);
-  std::erase_if(sources, [&](const Source& source) { return source.end < now; });
-  for (std::size_t k = 0; k < breaks.size(); ++k)
+  const auto measure_those = [&](const auto& is_due) {
+    std::vector<Source*> due;
+    for (Source& source : sources)
+      if (is_due(source))
+        due.push_back(&source);
+    measure(dynamics, due);
+  };
+  const auto has_ended = [&](const Source& source) { return source.end < now; };
+  measure_those(has_ended);
+  std::erase_if(sources, has_ended);
+
+  std::vector<BrokenSegment> broken_now;
+  for (const auto& [crack, grain_1, grain_2] : of_step)
     {
-      Crack& crack = cracks[cracks.size() - breaks.size() + k];
-      const GrainPair ends = ends_of(dynamics.specimen(), breaks[k]);
-      BrokenSegment broken{ends.first, ends.second, std::uint32_t(crack.joint), crack.segment, crack.on_smooth_joint,
-                           {},         {}};
-      std::copy_n(crack.centroid.begin(), dim, broken.place.begin());
+      broken_now.push_back(
+        {grain_1, grain_2, std::uint32_t(crack.joint), crack.segment, crack.on_smooth_joint, {}, {}});
+      std::copy_n(crack.centroid.begin(), dim, broken_now.back().place.begin());
+    }
+  std::vector<BrokenSegment*> each;
+  for (BrokenSegment& broken : broken_now)
+    each.push_back(&broken);
+  measure(dynamics, each); // a joint may go before its event is measured
+  for (std::size_t k = 0; k < broken_now.size(); ++k)
+    {
+      const BrokenSegment& broken = broken_now[k];
       Source& source = source_at(Eigen::Map<const Vector<dim>>(broken.place.data()), now);
-      crack.event = source.event;
-      if (const auto moment = moment_of(dynamics, broken)) // its joint may go before the event is measured
-        Eigen::Map<Tensor<dim>>(broken.moment.data()) = *moment;
+      all[all.size() - broken_now.size() + k].event = source.event;
       source.broken.push_back(broken);
       enclose(source);
       source.end = now + duration_over_radius * source.radius;
     }
   // A large event changes slowly, and costs no more than a small one if it is measured as much more seldom.
-  for (Source& source : sources)
-    if (dynamics.n_steps() % (steps_between + source.broken.size() / segments_a_step) == 0)
-      measure(dynamics, source);
+  measure_those([&](const Source& source) {
+    return dynamics.n_steps() % (steps_between + source.broken.size() / segments_a_step) == 0;
+  });
 }
 
 template <int dim>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/cracks.h"
 #include "dem/lab/emission_entries.h"
 #include "laboratory/record.h"
 
@@ -21,8 +22,8 @@ public:
   EmissionWatch(const Specimen<dim>& body, const EmissionParameters& wanted);
 
   /// Gives the cracks of a step, which are the last of all, their events, and measures the events that last. Called after
-  /// each step, with its breaks.
-  void follow(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks, std::vector<Crack>& cracks);
+  /// each step.
+  void follow(const Dynamics<dim>& dynamics, const std::vector<CrackBetween>& of_step, std::vector<Crack>& all);
 
   /// The events of these cracks, in the order of their first breaks; the cracks get the numbers of the list, from 1.
   /// `start`: the time of zero strain [s].
@@ -63,7 +64,8 @@ private:
   /// Sets centre and radius by the breaks.
   void enclose(Source& source) const;
   Source& source_at(const Vector<dim>& place, double time);
-  void measure(const Dynamics<dim>& dynamics, Source& source);
+  static void measure(const Dynamics<dim>& dynamics, const std::vector<BrokenSegment*>& segments);
+  void measure(const Dynamics<dim>& dynamics, const std::vector<Source*>& those);
   static Moment sum_of(const Source& source);
 
   double least_radius;          ///< [m]

@@ -121,6 +121,14 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const 
 }
 
 template <int dim>
+void LabTest<dim>::share(Partners& with)
+{
+  if (set_up.loading.drive_stage)
+    throw InputError("a test that follows a loading table cannot be made by several processes together yet");
+  set_up.dynamics.share(with);
+}
+
+template <int dim>
 void LabTest<dim>::start_gauge()
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
@@ -161,6 +169,7 @@ void LabTest<dim>::seat(const std::function<void()>& check)
     shortening_at_start = set_up.loading.shortening(dynamics);
   if (set_up.loading.opening)
     opening_at_start = set_up.loading.opening(dynamics);
+  dynamics.know_all_motions();
   gauge_positions = dynamics.specimen().grains.position;
   start_gauge();
   check_gauge();
@@ -208,15 +217,15 @@ void LabTest<dim>::step()
   auto& dynamics = set_up.dynamics;
   const auto breaks = dynamics.step();
   lateral_stress_over_time += dynamics.time_step() * lateral_stress();
-  for (const auto& event : breaks)
+  const std::vector<CrackBetween> cracks = cracks_of(dynamics, breaks, axial_strain());
+  for (const auto& [crack, grain_1, grain_2] : cracks)
     {
-      record.cracks.push_back(crack(dynamics, event, axial_strain()));
-      ++(event.in_tension ? n_tension : n_shear);
-      const auto [one, two] = ends_of(dynamics.specimen(), event);
-      ++n_broken_segments[one];
-      ++n_broken_segments[two];
+      record.cracks.push_back(crack);
+      ++(crack.kind == CrackKind::tension ? n_tension : n_shear);
+      ++n_broken_segments[grain_1];
+      ++n_broken_segments[grain_2];
     }
-  emission.follow(dynamics, breaks, record.cracks);
+  emission.follow(dynamics, cracks, record.cracks);
 }
 
 template <int dim>
@@ -224,6 +233,7 @@ void LabTest<dim>::add_row()
 {
   auto& dynamics = set_up.dynamics;
   dynamics.check_motion();
+  dynamics.know_all_motions();
   // Rock breaks at strains of a ten thousandth: a step of more passes over all that there is to be followed.
   constexpr double longest = 1e-3;
   const double strain_rate =
@@ -353,7 +363,7 @@ Snapshot LabTest<dim>::snapshot() const
         for (int b = a; b < 3; ++b)
           now.stress[k++].push_back(b < dim ? symmetric(a, b) : 0.0);
     }
-  now.fragment = fragments(specimen);
+  now.fragment = set_up.dynamics.fragments();
   now.n_broken_segments = n_broken_segments;
   return now;
 }

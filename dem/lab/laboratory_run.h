@@ -82,6 +82,10 @@ public:
   LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const TestParameters& wanted,
           const DynamicsParameters& dynamics);
 
+  /// Runs the test together with partners from now on, which all have it as it stands: every function is then called by all of
+  /// them at once. Throws InputError for a test that cannot be shared.
+  void share(Partners& with);
+
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
   /// the stop rule, after its last stage, or because numbers went wrong, which its record then says. Calls check() at
   /// every step, which may throw; a row that this broke off is gone on with at the next call, a seating cannot be. Throws
@@ -103,7 +107,10 @@ public:
   /// row in which they did.
   TestOutcome finish(bool interrupted) const;
 
-  /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is.
+  /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is. Of a shared test
+  /// the first process writes, after collect() and before drop() by all.
+  void collect() { set_up.dynamics.collect(); }
+  void drop() { set_up.dynamics.drop(); }
   void write_checkpoint(const std::filesystem::path& file, const std::string& identity);
   /// Throws InputError where the file is missing, torn, foreign or of another identity; the test is then unusable.
   void read_checkpoint(const std::filesystem::path& file, const std::string& identity);

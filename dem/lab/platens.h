@@ -59,6 +59,7 @@ template <int dim>
 void start_steadily(Dynamics<dim>& dynamics, const double strain_rate, const double about)
 {
   constexpr int axis = dim - 1;
+  dynamics.know_all_motions();
   const auto& grains = dynamics.specimen().grains;
   for (std::uint32_t i = 0; i < grains.size(); ++i)
     dynamics.push(i, strain_rate * (grains.position[axis][i] - about) * Vector<dim>::Unit(axis));

@@ -45,6 +45,7 @@ Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const dou
       };
       around.end_area = [=](State state) { return surface(state).cross_section; };
       around.press_membrane = [=](Dynamics<dim>& state, const double share) {
+        state.know_all_motions();
         auto forces = surface(state).inward_area;
         for (int axis = 0; axis < dim - 1; ++axis)
           for (double& force : forces[axis])

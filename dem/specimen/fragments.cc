@@ -17,7 +17,9 @@ DisjointSets connected(const Joints<dim>& joints, const std::size_t n_grains, co
   return sets;
 }
 
-std::vector<std::uint32_t> numbers_by_size(DisjointSets sets, const std::size_t n_grains)
+} // namespace
+
+std::vector<std::uint32_t> fragments(DisjointSets sets, const std::size_t n_grains)
 {
   const std::vector<std::uint32_t> n_members = sets.sizes();
   std::vector<std::uint32_t> by_size(n_grains);
@@ -32,7 +34,6 @@ std::vector<std::uint32_t> numbers_by_size(DisjointSets sets, const std::size_t 
     number[i] = rank[sets.root(i)];
   return number;
 }
-} // namespace
 
 template <int dim>
 DisjointSets connected_grains(const Specimen<dim>& specimen, const Faces faces)
@@ -57,13 +58,13 @@ DisjointSets connected_grains(const Specimen<dim>& specimen, const Faces faces)
 template <int dim>
 std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_t n_grains)
 {
-  return numbers_by_size(connected(joints, n_grains, Faces::bonded), n_grains);
+  return fragments(connected(joints, n_grains, Faces::bonded), n_grains);
 }
 
 template <int dim>
 std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen)
 {
-  return numbers_by_size(connected_grains(specimen, Faces::bonded), specimen.grains.size());
+  return fragments(connected_grains(specimen, Faces::bonded), specimen.grains.size());
 }
 
 template <int dim>

@@ -23,6 +23,9 @@ DisjointSets connected_grains(const Specimen<dim>& specimen, Faces faces);
 template <int dim>
 std::vector<std::uint32_t> fragments(const Joints<dim>& joints, std::size_t n_grains);
 
+/// The same of grains that are connected otherwise.
+std::vector<std::uint32_t> fragments(DisjointSets sets, std::size_t n_grains);
+
 /// The fragments of a specimen, whose smooth joints hold as well.
 template <int dim>
 std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen);

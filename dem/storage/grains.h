@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -45,6 +46,15 @@ void set(Components<n_components>& components, const std::size_t i, const Eigen:
   for (int c = 0; c < n_components; ++c)
     components[c][i] = value[c];
 }
+
+/// Grains that follow each other by number.
+struct GrainRange
+{
+  std::uint32_t first, end;
+
+  std::size_t size() const { return end - first; }
+  bool has(const std::uint32_t grain) const { return grain >= first && grain < end; }
+};
 
 /// Area of a disc of unit thickness, volume of a sphere; radius in m, result in m³.
 template <int dim>

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -163,6 +164,15 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     return feldspar::face_area<dim>(this->half_length[joint], thickness);
   }
 
+  /// The places of the joints in the order of their numbers.
+  std::vector<std::size_t> by_number() const
+  {
+    std::vector<std::size_t> places(number.size());
+    std::iota(places.begin(), places.end(), std::size_t(0));
+    std::ranges::sort(places, {}, [&](const std::size_t j) { return number[j]; });
+    return places;
+  }
+
   bool holds(const std::size_t joint) const
   {
     for (unsigned int i = 0; i < n_segments; ++i)
@@ -177,6 +187,20 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
       if (!(this->bonded[segment(i, joint)] > 0.0))
         return false;
     return true;
+  }
+
+  /// Visits all numbers of the joints except their grains and own numbers.
+  template <typename Visitor>
+  void visit_all(Visitor&& visit)
+  {
+    visit_per_joint([&](const std::string&, auto& values) { visit(values); });
+    visit(this->further_friction);
+    visit_per_segment([&](const std::string&, auto& values) { visit(values); });
+    for (auto& component : this->force)
+      visit(component);
+    for (auto* couples : {&this->couple_1, &this->couple_2})
+      for (auto& component : *couples)
+        visit(component);
   }
 
   /// Visits all properties and states of the joints except their grains, numbers, further friction and responses; for code that stores or

@@ -93,9 +93,10 @@ std::vector<EmissionEvent> events_of(Specimen<2>& body, const Tensor<2>& strain,
   for (int n = 0; n < 2000; ++n)
     {
       const auto breaks = dynamics.step();
-      for (const Break& event : breaks)
-        cracks.push_back(crack(dynamics, event, 0.0));
-      watch.follow(dynamics, breaks, cracks);
+      const auto of_step = cracks_of(dynamics, breaks, 0.0);
+      for (const CrackBetween& one : of_step)
+        cracks.push_back(one.crack);
+      watch.follow(dynamics, of_step, cracks);
     }
   EXPECT_EQ(cracks.size(), n_breaks);
   body = dynamics.specimen();
@@ -257,9 +258,10 @@ void expect_dipole_of_one_bond()
   for (int n = 0; n < 2000; ++n)
     {
       const auto breaks = dynamics.step();
-      for (const Break& event : breaks)
-        cracks.push_back(crack(dynamics, event, 0.0));
-      watch.follow(dynamics, breaks, cracks);
+      const auto of_step = cracks_of(dynamics, breaks, 0.0);
+      for (const CrackBetween& one : of_step)
+        cracks.push_back(one.crack);
+      watch.follow(dynamics, of_step, cracks);
       if (!breaks.empty())
         break_time = dynamics.time();
       // The breaks lie around the middle of the face, whose half length is added to the radius of an event of one.
@@ -310,12 +312,13 @@ TEST(Emission, OfAPressedParallelBondHasAllThatItCarried)
           across = joints.normal_stiffness[0] * joints.face_area(0) * joints.opening[0];
           along = joints.shear_stiffness[0] * joints.face_area(0) * joints.slip[0][0];
         }
+      const auto of_step = cracks_of(dynamics, breaks, 0.0);
       if (!breaks.empty())
         {
           step_of_break = n;
-          cracks.push_back(crack(dynamics, breaks.front(), 0.0));
+          cracks.push_back(of_step.front().crack);
         }
-      watch.follow(dynamics, breaks, cracks);
+      watch.follow(dynamics, of_step, cracks);
     }
   const auto events = watch.catalogue(cracks, 0.0);
   ASSERT_EQ(events.size(), 1u);

@@ -553,7 +553,7 @@ TEST(Plates, ThatPivotLetGoAGrainThatIsFarBesideThem)
   EnergyLedger ledger(2);
   const auto n_after = [&](const double place, const ZeroForce zero_force) {
     specimen.grains.position[0][1] = place;
-    walls.search(specimen, 2, 0.01, zero_force, ledger);
+    walls.search(specimen, {0, 2}, 0.01, zero_force, ledger);
     std::size_t n = 0;
     walls.for_each_touch([&](const Wall&, const WallTouch<2>&) { ++n; });
     return n;

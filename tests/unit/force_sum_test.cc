@@ -41,10 +41,10 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
     n_own, 0, [](std::size_t) { return GrainPair(); }, [](const std::uint32_t grain) { return grain; });
   Touches<dim> touches;
   EnergyLedger ledger(n_own);
-  touches.search(body, images, no_joints, skin, ZeroForce::at_touch, ledger, [] {});
+  touches.search(body, images, BodyShare<dim>(n_own), no_joints, skin, ZeroForce::at_touch, ledger, [] {});
   touches.update(body.grains, friction, 0.0, 0.0);
   touches.update(body.grains, friction, 1e-3, 0.0);
-  sum_remaining_forces(body, SumOrder(no_joints, 0), touches);
+  sum_remaining_forces(body, SumOrder(no_joints, 0, {0, std::uint32_t(n_own)}), touches);
 
   Components<dim> force;
   Components<n_rotations<dim>> couple;

@@ -34,8 +34,8 @@ void expect_the_longest_way_of(const std::size_t fastest, const bool is_held)
       }
   std::vector<double> freedom(n, 1.0), damping_work(n, 0.0);
   freedom[fastest] = is_held ? 0.0 : 1.0;
-  const double way =
-    move_bodies<dim>(grains, n, InverseInertia(grains), {1e-6, 1e-6, 0.7, Vector<dim>::Zero()}, freedom, damping_work);
+  const double way = move_bodies<dim>(grains, {0, std::uint32_t(n)}, InverseInertia(grains),
+                                      {1e-6, 1e-6, 0.7, Vector<dim>::Zero()}, freedom, damping_work);
 
   double expected = 0.0;
   for (std::size_t i = 0; i < n; ++i)

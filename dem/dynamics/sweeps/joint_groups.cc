@@ -1,7 +1,6 @@
 #include "dem/dynamics/sweeps/joint_groups.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace feldspar
@@ -50,10 +49,7 @@ void JointGroups<dim>::note(const std::vector<Break>& breaks, const Joints<dim>&
 template <int dim>
 std::vector<std::size_t> JointGroups<dim>::grouped(const Joints<dim>& joints) const
 {
-  std::vector<std::size_t> order(bonds.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](const std::size_t a, const std::size_t b) { return joints.number[a] < joints.number[b]; });
+  std::vector<std::size_t> order = joints.by_number();
   for (auto begin = order.begin(); begin != order.end();)
     {
       const auto end = begin + std::min(std::ptrdiff_t(window), order.end() - begin);

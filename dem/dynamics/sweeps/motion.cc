@@ -51,12 +51,13 @@ template <typename Real, int dim>
 } // namespace
 
 template <int dim>
-double move_bodies(Grains<dim>& bodies, const std::size_t n_bodies, const InverseInertia& inverse,
+double move_bodies(Grains<dim>& bodies, const GrainRange& moved, const InverseInertia& inverse,
                    const MotionStep<dim>& step, const std::vector<double>& freedom, std::vector<double>& damping_work)
 {
-  std::vector<double> squared_ways(n_blocks(n_bodies), 0.0);
-  for_each_block(n_bodies, [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
-    std::size_t i = begin;
+  std::vector<double> squared_ways(n_blocks(moved.size()), 0.0);
+  for_each_block(moved.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t behind) {
+    std::size_t i = moved.first + begin;
+    const std::size_t end = moved.first + behind;
     simd::Pack of_packs = 0.0;
     for (; i + simd::width<simd::Pack> <= end; i += simd::width<simd::Pack>)
       of_packs = simd::larger(of_packs, move_one<simd::Pack>(bodies, inverse, i, step, freedom, damping_work));
@@ -68,8 +69,8 @@ double move_bodies(Grains<dim>& bodies, const std::size_t n_bodies, const Invers
   return squared_ways.empty() ? 0.0 : std::sqrt(*std::max_element(squared_ways.begin(), squared_ways.end()));
 }
 
-template double move_bodies<2>(Grains<2>&, std::size_t, const InverseInertia&, const MotionStep<2>&,
+template double move_bodies<2>(Grains<2>&, const GrainRange&, const InverseInertia&, const MotionStep<2>&,
                                const std::vector<double>&, std::vector<double>&);
-template double move_bodies<3>(Grains<3>&, std::size_t, const InverseInertia&, const MotionStep<3>&,
+template double move_bodies<3>(Grains<3>&, const GrainRange&, const InverseInertia&, const MotionStep<3>&,
                                const std::vector<double>&, std::vector<double>&);
 } // namespace feldspar

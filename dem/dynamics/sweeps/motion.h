@@ -34,11 +34,11 @@ struct InverseInertia
   }
 };
 
-/// Moves the first `n_bodies` grains or groups over a step by their forces and couples: kicks their velocities and spins
+/// Moves these grains or groups over a step by their forces and couples: kicks their velocities and spins
 /// over half of the step before and half of this one, and carries their centres; docs/theory.md §2.1. `freedom`: 0 for a
 /// body that a grip holds, 1 for a free one; `damping_work`: grows by what damping dissipates at each [J]. Returns the
 /// longest way that one has gone [m].
 template <int dim>
-double move_bodies(Grains<dim>& bodies, std::size_t n_bodies, const InverseInertia& inverse,
+double move_bodies(Grains<dim>& bodies, const GrainRange& moved, const InverseInertia& inverse,
                    const MotionStep<dim>& step, const std::vector<double>& freedom, std::vector<double>& damping_work);
 } // namespace feldspar

@@ -126,14 +126,13 @@ void add_smooth_forces(Specimen<dim>& body)
 }
 
 template <int dim>
-Energies with_smooth_joints(Energies sum, const Specimen<dim>& body)
+void add_smooth_energies(const Specimen<dim>& body, ExactSum& strain, ExactSum& slip)
 {
   for (const auto& joint : body.smooth_joints)
     {
-      sum.slip += joint.slip_energy;
-      sum.strain += joint.stored_energy();
+      slip.add(joint.slip_energy);
+      strain.add(joint.stored_energy());
     }
-  return sum;
 }
 
 template <int dim>
@@ -163,8 +162,8 @@ template std::vector<Break> sweep_smooth_joints<2>(Specimen<2>&, double);
 template std::vector<Break> sweep_smooth_joints<3>(Specimen<3>&, double);
 template void add_smooth_forces<2>(Specimen<2>&);
 template void add_smooth_forces<3>(Specimen<3>&);
-template Energies with_smooth_joints<2>(Energies, const Specimen<2>&);
-template Energies with_smooth_joints<3>(Energies, const Specimen<3>&);
+template void add_smooth_energies<2>(const Specimen<2>&, ExactSum&, ExactSum&);
+template void add_smooth_energies<3>(const Specimen<3>&, ExactSum&, ExactSum&);
 template std::vector<EndedSmoothJoint> remove_ended_smooth_joints<2>(Specimen<2>&);
 template std::vector<EndedSmoothJoint> remove_ended_smooth_joints<3>(Specimen<3>&);
 } // namespace feldspar

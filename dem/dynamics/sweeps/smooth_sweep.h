@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/exact_sum.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/specimen/specimen.h"
-#include "laboratory/energies.h"
 
 #include <vector>
 
@@ -19,9 +19,9 @@ std::vector<Break> sweep_smooth_joints(Specimen<dim>& body, double dt);
 template <int dim>
 void add_smooth_forces(Specimen<dim>& body);
 
-/// `sum` with what they store and have dissipated.
+/// Adds what they store and have dissipated.
 template <int dim>
-Energies with_smooth_joints(Energies sum, const Specimen<dim>& body);
+void add_smooth_energies(const Specimen<dim>& body, ExactSum& strain, ExactSum& slip);
 
 /// A smooth joint that has come to its end.
 struct EndedSmoothJoint

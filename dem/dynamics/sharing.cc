@@ -1,0 +1,278 @@
+// A body that several processes compute together: its division, what they agree on in a step, and its whole state.
+
+#include "base/input_error.h"
+#include "dem/dynamics/dynamics.h"
+#include "dem/specimen/fragments.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+/// What keeps a body from being computed by several processes, if anything.
+template <int dim>
+std::string what_is_not_shared(const Specimen<dim>& body, const bool has_gravity, const std::vector<Wall>& walls)
+{
+  if (body.is_periodic())
+    return "a periodic body";
+  if (body.groups_are_rigid)
+    return "a body of clumps";
+  if (!body.smooth_joints.empty())
+    return "a body with smooth joints";
+  if (has_gravity)
+    return "a body under gravity";
+  if (std::ranges::any_of(walls, &Wall::pivots))
+    return "a body under plates that pivot";
+  return {};
+}
+
+/// A broken segment as others hear of it.
+struct PlainBreak
+{
+  std::uint32_t joint; ///< by its number
+  std::uint32_t segment;
+  double released_energy; ///< [J]
+};
+} // namespace
+
+template <int dim>
+void Dynamics<dim>::share(Partners& with)
+{
+  if (const std::string what = what_is_not_shared(body, !gravity.isZero(0.0), wall_set.list()); !what.empty())
+    throw InputError("{} cannot be computed by several processes together yet", what);
+  part = BodyShare<dim>(with, body);
+  if (!part.is_first())
+    ledger.slip_of_lost_contacts = {};
+  drop();
+}
+
+template <int dim>
+void Dynamics<dim>::drop()
+{
+  if (!part.is_shared())
+    return;
+  auto& joints = body.joints;
+  std::vector<std::size_t> kept;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (part.concerns({joints.grain_1[j], joints.grain_2[j]}))
+      kept.push_back(j);
+  joints.keep(kept);
+  joints = Joints<dim>(joints); // without the room of those that have gone
+  std::vector<Touch<dim>> own_touches;
+  std::ranges::copy_if(touches.list(), std::back_inserter(own_touches),
+                       [&](const Touch<dim>& touch) { return part.concerns(touch.ends()); });
+  touches.take(std::move(own_touches));
+  for (std::size_t w = 0; w < wall_set.size(); ++w)
+    {
+      std::vector<WallTouch<dim>> near;
+      std::ranges::copy_if(wall_set.near(w), std::back_inserter(near),
+                           [&](const WallTouch<dim>& touch) { return part.counts(touch.grain); });
+      wall_set.take(w, std::move(near));
+    }
+  if (!started)
+    return;
+  joint_groups = JointGroups<dim>(joints);
+  index_joints();
+  touches.number(images);
+  agree_on_copies();
+  agree({}, 0.0);
+}
+
+template <int dim>
+void Dynamics<dim>::agree_on_copies()
+{
+  if (!part.is_shared())
+    return;
+  std::vector<std::uint32_t> needed(body.joints.grain_1);
+  needed.insert(needed.end(), body.joints.grain_2.begin(), body.joints.grain_2.end());
+  for (const Touch<dim>& touch : touches.list())
+    {
+      needed.push_back(touch.grain_1);
+      needed.push_back(touch.grain_2);
+    }
+  part.agree_on_copies(std::move(needed));
+}
+
+/// Makes known to all what the contacts of a step of dt [s] gave: sums over walls, grips and forces from outside, in the order of
+/// the grains, and breaks.
+template <int dim>
+std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double step)
+{
+  std::vector<PlainBreak> plain;
+  const auto is_smooth = [&](const Break& event) { return event.joint >= body.joints.size(); };
+  std::erase_if(
+    breaks, [&](const Break& event) { return !is_smooth(event) && !part.counts(body.joints.grain_1[event.joint]); });
+  for (const Break& event : breaks)
+    plain.push_back({is_smooth(event) ? 0 : body.joints.number[event.joint], event.segment, event.released_energy});
+
+  // The sums, each a list of its terms.
+  const GrainRange own = part.grains();
+  std::vector<std::vector<double>> terms;
+  for (int c = 0; c < dim; ++c)
+    {
+      auto& works = terms.emplace_back();
+      for (std::size_t i = own.first; i < own.end && !applied_force[c].empty(); ++i)
+        if (applied_force[c][i] != 0.0)
+          works.push_back(step * applied_force[c][i] * body.grains.velocity[c][i]);
+    }
+  if (part.is_shared())
+    {
+      for (std::size_t w = 0; w < wall_set.size(); ++w)
+        {
+          terms.push_back(wall_set.pressures(w));
+          terms.push_back(wall_set.stiffnesses_in_touch(body, w));
+        }
+      for (std::size_t g = 0; g < grips.size(); ++g)
+        for (int c = 0; c < dim; ++c)
+          {
+            auto& forces = terms.emplace_back();
+            for (const std::uint32_t i : grips.members(g))
+              if (own.has(i))
+                forces.push_back(body.grains.force[c][i]);
+          }
+      terms.push_back({contact_made ? 1.0 : 0.0, double(plain.size())});
+      terms = part.gathered_lists(terms);
+
+      auto next = terms.begin() + dim;
+      for (std::size_t w = 0; w < wall_set.size(); ++w, next += 2)
+        wall_set.set_sums(w, next[0], next[1]);
+      shared_grip_forces.assign(grips.size(), Vector<dim>::Zero());
+      for (Vector<dim>& force : shared_grip_forces)
+        for (int c = 0; c < dim; ++c, ++next)
+          for (const double term : *next)
+            force[c] += term;
+      double n_breaks = 0.0;
+      for (std::size_t k = 0; k < next->size(); k += 2)
+        {
+          contact_made = contact_made || (*next)[k] > 0.0;
+          n_breaks += (*next)[k + 1];
+        }
+      if (n_breaks > 0.0)
+        {
+          plain = part.gathered(plain);
+          std::ranges::sort(plain, {}, [](const PlainBreak& one) { return std::pair(one.joint, one.segment); });
+        }
+    }
+  for (int c = 0; c < dim; ++c)
+    for (const double work : terms[std::size_t(c)])
+      ledger.boundary_work += work;
+  released.clear();
+  for (const PlainBreak& one : plain)
+    released.push_back(one.released_energy);
+  return breaks;
+}
+
+template <int dim>
+void Dynamics<dim>::know_all_motions()
+{
+  auto& grains = body.grains;
+  part.bring_all(grains.position);
+  part.bring_all(grains.velocity);
+  part.bring_all(grains.spin);
+}
+
+template <int dim>
+std::vector<std::uint32_t> Dynamics<dim>::fragments() const
+{
+  if (!part.is_shared())
+    return feldspar::fragments(body);
+  std::vector<std::uint32_t> held; // the two grains of each joint
+  for (std::size_t j = 0; j < body.joints.size(); ++j)
+    if (part.counts(body.joints.grain_1[j]) && body.joints.holds(j))
+      held.insert(held.end(), {body.joints.grain_1[j], body.joints.grain_2[j]});
+  held = part.gathered(held);
+  DisjointSets sets(body.grains.size());
+  for (std::size_t k = 0; k < held.size(); k += 2)
+    sets.merge(held[k], held[k + 1]);
+  return feldspar::fragments(std::move(sets), body.grains.size());
+}
+
+template <int dim>
+void Dynamics<dim>::collect()
+{
+  if (!part.is_shared())
+    return;
+  know_all_motions();
+  part.bring_all(body.grains.force);
+  part.bring_all(body.grains.couple);
+  part.bring(ledger.damping_work);
+  part.add_up(ledger.slip_of_lost_contacts);
+  if (!part.is_first())
+    ledger.slip_of_lost_contacts = {};
+
+  auto& joints = body.joints;
+  std::vector<std::size_t> own = joints.by_number();
+  std::erase_if(own, [&](const std::size_t j) { return !part.counts(joints.grain_1[j]); });
+  const auto of_all = [&](const std::vector<std::uint32_t>& values) {
+    std::vector<std::uint32_t> of_own;
+    std::ranges::transform(own, std::back_inserter(of_own), [&](const std::size_t j) { return values[j]; });
+    return part.gathered(of_own);
+  };
+  const auto number = of_all(joints.number), grain_1 = of_all(joints.grain_1), grain_2 = of_all(joints.grain_2);
+  const std::size_t n = number.size();
+  Joints<dim> whole = joints;
+  if (part.is_first())
+    whole.resize_all(n);
+  std::vector<std::size_t> place(n); // of each that was gathered: by its number
+  {
+    whole.number = number;
+    const auto order = whole.by_number();
+    for (std::size_t k = 0; k < n; ++k)
+      place[order[k]] = k;
+  }
+  if (part.is_first())
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        whole.number[place[k]] = number[k];
+        whole.grain_1[place[k]] = grain_1[k];
+        whole.grain_2[place[k]] = grain_2[k];
+      }
+  std::size_t field = 0;
+  joints.visit_all([&](const auto& values) {
+    std::vector<double> of_own;
+    for (const std::size_t j : own)
+      for (std::size_t i = j; i < values.size(); i += joints.size())
+        of_own.push_back(values[i]);
+    const std::vector<double> all = part.gathered(of_own);
+    std::size_t its_number = 0;
+    if (const std::size_t per_joint = n > 0 ? all.size() / n : 0; part.is_first())
+      whole.visit_all([&](auto& into) {
+        if (its_number++ == field)
+          for (std::size_t k = 0; k < all.size(); ++k)
+            into[k % per_joint * n + place[k / per_joint]] = all[k];
+      });
+    ++field;
+  });
+  if (part.is_first())
+    joints = std::move(whole);
+
+  std::vector<Touch<dim>> counted;
+  std::ranges::copy_if(touches.list(), std::back_inserter(counted),
+                       [&](const Touch<dim>& touch) { return part.counts(touch.grain_1); });
+  counted = part.gathered(counted);
+  if (part.is_first())
+    touches.take(std::move(counted));
+  for (std::size_t w = 0; w < wall_set.size(); ++w)
+    if (auto near = part.gathered(wall_set.near(w)); part.is_first())
+      wall_set.take(w, std::move(near));
+}
+
+template void Dynamics<2>::share(Partners&);
+template void Dynamics<3>::share(Partners&);
+template void Dynamics<2>::drop();
+template void Dynamics<3>::drop();
+template void Dynamics<2>::agree_on_copies();
+template void Dynamics<3>::agree_on_copies();
+template std::vector<Break> Dynamics<2>::agree(std::vector<Break>, double);
+template std::vector<Break> Dynamics<3>::agree(std::vector<Break>, double);
+template void Dynamics<2>::know_all_motions();
+template void Dynamics<3>::know_all_motions();
+template std::vector<std::uint32_t> Dynamics<2>::fragments() const;
+template std::vector<std::uint32_t> Dynamics<3>::fragments() const;
+template void Dynamics<2>::collect();
+template void Dynamics<3>::collect();
+} // namespace feldspar

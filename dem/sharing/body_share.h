@@ -1,0 +1,76 @@
+#pragma once
+
+#include "base/exact_sum.h"
+#include "dem/sharing/partners.h"
+#include "dem/specimen/specimen.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace feldspar
+{
+/// The part of a body that a process computes, of those that compute it together: a range of its grains, which are its own,
+/// all joints and contacts of these, and copies of the motion of the grains at their other ends. A joint of two owners is
+/// computed by both, from the same motions, so that only motions travel. Every process has all grains by number, and knows of
+/// those that are neither its own nor copied what it last heard. Without partners all grains are its own.
+template <int dim>
+class BodyShare
+{
+public:
+  explicit BodyShare(const std::size_t n_grains)
+    : own{0, std::uint32_t(n_grains)}
+  {
+  }
+  /// Divides a body into ranges with as many joints each.
+  BodyShare(Partners& with, const Specimen<dim>& whole);
+
+  bool is_shared() const { return partners != nullptr; }
+  /// Returns whether this process speaks for what all know.
+  bool is_first() const { return !is_shared() || partners->mine() == 0; }
+  GrainRange grains() const { return own; }
+  /// Returns whether a joint or a contact is counted by this process: the owner of its first grain.
+  bool counts(const std::uint32_t grain_1) const { return own.has(grain_1); }
+  bool concerns(const GrainPair& pair) const { return own.has(pair.first) || own.has(pair.second); }
+
+  /// Agrees with the partners on the grains whose motions each needs of others; own ones may be among them. All know the
+  /// positions of all.
+  void agree_on_copies(std::vector<std::uint32_t> needed);
+  /// Copies the motions of the grains that are copied from their owners. Returns the longest way of any of them and of the own
+  /// [m], whose longest is given.
+  double copy_motions(Grains<dim>& grains, double farthest_way);
+  /// Brings values by grain up to date; [n_grains].
+  void bring(std::vector<double>& values) const;
+  template <std::size_t n>
+  void bring_all(std::array<std::vector<double>, n>& components) const
+  {
+    for (auto& component : components)
+      bring(component);
+  }
+
+  /// The values of all, one process after another; the own ones without partners.
+  template <typename T>
+  std::vector<T> gathered(const std::vector<T>& values, std::vector<std::size_t>* const counts = nullptr) const
+  {
+    return is_shared() ? feldspar::gathered(*partners, values, counts) : values;
+  }
+  /// Gathers several lists at once.
+  std::vector<std::vector<double>> gathered_lists(const std::vector<std::vector<double>>& lists) const;
+  /// The largest of the values of all, one by one.
+  std::vector<double> largest(const std::vector<double>& values) const;
+  bool any(const bool here) const { return is_shared() ? largest({here ? 1.0 : 0.0})[0] > 0.0 : here; }
+  /// Sums over the body of what each process has added.
+  std::vector<double> totals(std::vector<ExactSum> sums) const;
+  void add_up(ExactSum& sum) const;
+
+private:
+  Partners* partners = nullptr;
+  GrainRange own;
+  std::vector<std::uint32_t> first_of; ///< grain of each process; [number + 1]
+  std::vector<std::uint32_t> given;    ///< own grains whose motions others need, by process
+  std::vector<std::uint32_t> taken;    ///< copied grains, by owner
+  std::vector<std::size_t> first_sent, first_received;
+  std::vector<double> sent, received;
+};
+} // namespace feldspar

@@ -1,0 +1,99 @@
+#include "runs/shared_tests.h"
+
+#include "base/input_error.h"
+#include "base/ranks/ranks.h"
+#include "dem/lab/laboratory_run.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/sharing/partners.h"
+#include "runs/part.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace feldspar
+{
+namespace
+{
+/// The processes of base/ranks.
+class ProcessesAsPartners : public Partners
+{
+public:
+  unsigned int number() const override { return ranks::number(); }
+  unsigned int mine() const override { return ranks::mine(); }
+
+  std::vector<std::byte> gathered(const std::span<const std::byte> own, std::vector<std::size_t>& sizes) override
+  {
+    return ranks::gathered_by_all(own, sizes);
+  }
+  void exchange(const std::vector<double>& sent, const std::vector<std::size_t>& first_sent,
+                std::vector<double>& received, const std::vector<std::size_t>& first_received) override
+  {
+    ranks::exchange(sent, first_sent, received, first_received);
+  }
+};
+
+/// The checkpoints of a shared test, which the first process writes.
+struct SharedCheckpoints
+{
+  const Checkpoints& files;
+
+  template <int dim>
+  void write(LabTest<dim>& test) const
+  {
+    test.collect();
+    ranks::first([&] { files.write(test); });
+    test.drop();
+  }
+};
+
+template <int dim>
+void run_shared_test(const LaboratoryOrder& order, const Specimen<dim>& specimen, const std::filesystem::path& folder,
+                     const std::size_t part, RunObserver& observer)
+{
+  const Checkpoints checkpoints(folder, order.name, order.identity);
+  const auto begin = [&] {
+    return LabTest<dim>({protocol_of(order.test.kind), order.test.confining_pressure}, specimen, *order.parameters,
+                        *order.dynamics);
+  };
+  LabTest<dim> test = checkpoints.open(begin, observer);
+  if (test.has_ended())
+    return;
+  ProcessesAsPartners partners;
+  test.share(partners);
+  std::uint64_t n_asked = 0;
+  const auto end_if_one_wants = [&] {
+    constexpr std::uint64_t steps_between = 50;
+    if (++n_asked % steps_between == 0 && ranks::any(observer.wants_end()))
+      throw Interrupted();
+  };
+  lead(
+    test, SharedCheckpoints{checkpoints}, observer, order.steps_between_checkpoints,
+    [&](const auto& /*keep_if_due*/) { return advance(test, end_if_one_wants, part, observer); }, ranks::any);
+}
+} // namespace
+
+template <int dim>
+void run_shared_tests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& specimens,
+                      const std::filesystem::path& folder, RunObserver& observer)
+{
+  const std::filesystem::path checkpoint_folder = folder / "checkpoints";
+  ranks::first([&] { std::filesystem::create_directories(checkpoint_folder); });
+  for (const std::size_t k : longest_first(orders))
+    {
+      if (ranks::any(observer.wants_end()))
+        throw Interrupted();
+      try
+        {
+          run_shared_test<dim>(orders[k], specimens[orders[k].specimen], checkpoint_folder, k, observer);
+        }
+      catch (const InputError&) // the same on all: run_tests() meets it again, and reports it
+        {
+        }
+      observer.ended(k);
+    }
+}
+
+template decltype(run_shared_tests<2>) run_shared_tests<2>;
+template decltype(run_shared_tests<3>) run_shared_tests<3>;
+} // namespace feldspar
