@@ -4,35 +4,15 @@
 #include "base/ranks/ranks.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/sharing/partners.h"
 #include "runs/part.h"
+#include "runs/process_partners.h"
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace feldspar
 {
 namespace
 {
-/// The processes of base/ranks.
-class ProcessesAsPartners : public Partners
-{
-public:
-  unsigned int number() const override { return ranks::number(); }
-  unsigned int mine() const override { return ranks::mine(); }
-
-  std::vector<std::byte> gathered(const std::span<const std::byte> own, std::vector<std::size_t>& sizes) override
-  {
-    return ranks::gathered_by_all(own, sizes);
-  }
-  void exchange(const std::vector<double>& sent, const std::vector<std::size_t>& first_sent,
-                std::vector<double>& received, const std::vector<std::size_t>& first_received) override
-  {
-    ranks::exchange(sent, first_sent, received, first_received);
-  }
-};
-
 /// The checkpoints of a shared test, which the first process writes.
 struct SharedCheckpoints
 {

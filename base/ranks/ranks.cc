@@ -116,10 +116,12 @@ std::string gathered(const std::string& text)
 std::vector<std::byte> gathered_by_all(const std::span<const std::byte> own, std::vector<std::size_t>& sizes)
 {
   const std::size_t n = number(), size = own.size();
-  sizes.assign(n, size);
+  const bool are_known = !sizes.empty();
+  sizes.resize(n, size);
   if (n == 1)
     return {own.begin(), own.end()};
-  MPI_Allgather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, of_group);
+  if (!are_known)
+    MPI_Allgather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, of_group);
   std::vector<std::size_t> first(n + 1, 0);
   std::partial_sum(sizes.begin(), sizes.end(), first.begin() + 1);
   std::vector<std::byte> all(first.back());

@@ -27,7 +27,8 @@ std::string of_first(const std::string& text);
 /// The texts of all ranks, one after another by rank, on the first; nothing on others. Any length.
 std::string gathered(const std::string& text);
 
-/// The bytes of all ranks, one after another by rank, on each; `sizes` becomes how many each gave.
+/// The bytes of all ranks, one after another by rank, on each. `sizes`: how many each gives, where all know that; else empty, and
+/// becomes it.
 std::vector<std::byte> gathered_by_all(std::span<const std::byte> own, std::vector<std::size_t>& sizes);
 
 /// Sends to each rank r the values sent[first_sent[r]] … and receives from it received[first_received[r]] …, where there are

@@ -114,6 +114,7 @@ void Dynamics<dim>::apply_forces(const Components<dim>& forces)
     for (std::size_t i = 0; i < forces[c].size(); ++i)
       body.grains.force[c][i] += forces[c][i] - (applied_force[c].empty() ? 0.0 : applied_force[c][i]);
   applied_force = forces;
+  term_counts.clear();
   groups.gather(body.grains);
 }
 

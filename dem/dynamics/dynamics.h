@@ -172,6 +172,7 @@ private:
   Images<dim> images;
   BodyShare<dim> part;
   std::vector<Vector<dim>> shared_grip_forces; ///< of a shared body; else empty [N]
+  std::vector<std::size_t> term_counts; ///< of the terms that each process tells in a step; empty: to be asked for
   std::vector<double> released; ///< by each break of the last step, by the numbers of joint and segment [J]
   RigidGroups<dim> groups;
   Touches<dim> touches;

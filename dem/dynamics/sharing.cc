@@ -87,6 +87,7 @@ void Dynamics<dim>::agree_on_copies()
 {
   if (!part.is_shared())
     return;
+  term_counts.clear();
   std::vector<std::uint32_t> needed(body.joints.grain_1);
   needed.insert(needed.end(), body.joints.grain_2.begin(), body.joints.grain_2.end());
   for (const Touch<dim>& touch : touches.list())
@@ -95,6 +96,7 @@ void Dynamics<dim>::agree_on_copies()
       needed.push_back(touch.grain_2);
     }
   part.agree_on_copies(std::move(needed));
+  sweep_memory.moving = part.held();
 }
 
 /// Makes known to all what the contacts of a step of dt [s] gave: sums over walls, grips and forces from outside, in the order of
@@ -135,7 +137,7 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
                 forces.push_back(body.grains.force[c][i]);
           }
       terms.push_back({contact_made ? 1.0 : 0.0, double(plain.size())});
-      terms = part.gathered_lists(terms);
+      terms = part.gathered_lists(terms, term_counts);
 
       auto next = terms.begin() + dim;
       for (std::size_t w = 0; w < wall_set.size(); ++w, next += 2)

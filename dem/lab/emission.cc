@@ -182,7 +182,8 @@ void EmissionWatch<dim>::measure(const Dynamics<dim>& dynamics, const std::vecto
           numbers.push_back(double(k));
           moments.insert(moments.end(), moment->data(), moment->data() + moment->size());
         }
-  const auto of_all = dynamics.sharing().gathered_lists({numbers, moments});
+  std::vector<std::size_t> counts;
+  const auto of_all = dynamics.sharing().gathered_lists({numbers, moments}, counts);
   auto next = of_all[1].begin();
   for (const double number : of_all[0])
     {

@@ -67,7 +67,7 @@ void BodyShare<dim>::agree_on_copies(std::vector<std::uint32_t> needed)
   };
   // What each takes, all hear: 4 bytes a copied grain.
   std::vector<std::size_t> counts;
-  const std::vector<std::uint32_t> wanted = gathered(taken, &counts);
+  const std::vector<std::uint32_t> wanted = gathered(taken, counts);
   given.clear();
   first_sent.assign(1, 0);
   first_received.assign(1, 0);
@@ -85,6 +85,17 @@ void BodyShare<dim>::agree_on_copies(std::vector<std::uint32_t> needed)
     }
   sent.resize(first_sent.back());
   received.resize(first_received.back());
+}
+
+template <int dim>
+std::vector<std::uint32_t> BodyShare<dim>::held() const
+{
+  if (!is_shared())
+    return {};
+  std::vector<std::uint32_t> grains = taken;
+  for (std::uint32_t i = own.first; i < own.end; ++i)
+    grains.push_back(i);
+  return grains;
 }
 
 template <int dim>
@@ -128,7 +139,8 @@ void BodyShare<dim>::bring(std::vector<double>& values) const
 }
 
 template <int dim>
-std::vector<std::vector<double>> BodyShare<dim>::gathered_lists(const std::vector<std::vector<double>>& lists) const
+std::vector<std::vector<double>> BodyShare<dim>::gathered_lists(const std::vector<std::vector<double>>& lists,
+                                                               std::vector<std::size_t>& counts) const
 {
   if (!is_shared())
     return lists;
@@ -139,7 +151,7 @@ std::vector<std::vector<double>> BodyShare<dim>::gathered_lists(const std::vecto
       message.insert(message.end(), list.begin(), list.end());
     }
   std::vector<std::vector<double>> all(lists.size());
-  const std::vector<double> messages = gathered(message);
+  const std::vector<double> messages = gathered(message, counts);
   for (auto next = messages.begin(); next != messages.end();)
     for (auto& list : all)
       {
@@ -153,7 +165,7 @@ std::vector<std::vector<double>> BodyShare<dim>::gathered_lists(const std::vecto
 template <int dim>
 std::vector<double> BodyShare<dim>::largest(const std::vector<double>& values) const
 {
-  const std::vector<double> all = gathered(values);
+  const std::vector<double> all = gathered_alike(values);
   std::vector<double> result = values;
   for (std::size_t k = 0; k < all.size(); ++k)
     result[k % values.size()] = std::max(result[k % values.size()], all[k]);
@@ -166,7 +178,7 @@ void BodyShare<dim>::add_up(ExactSum& sum) const
   if (!is_shared())
     return;
   ExactSum total;
-  for (const ExactSum& one : gathered(std::vector{sum}))
+  for (const ExactSum& one : gathered_alike(std::vector{sum}))
     total.add(one);
   sum = total;
 }
@@ -174,7 +186,7 @@ void BodyShare<dim>::add_up(ExactSum& sum) const
 template <int dim>
 std::vector<double> BodyShare<dim>::totals(std::vector<ExactSum> sums) const
 {
-  const std::vector<ExactSum> all = gathered(sums);
+  const std::vector<ExactSum> all = gathered_alike(sums);
   std::vector<ExactSum> total(sums.size());
   for (std::size_t k = 0; k < all.size(); ++k)
     total[k % sums.size()].add(all[k]);

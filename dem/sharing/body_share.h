@@ -37,6 +37,9 @@ public:
   /// Agrees with the partners on the grains whose motions each needs of others; own ones may be among them. All know the
   /// positions of all.
   void agree_on_copies(std::vector<std::uint32_t> needed);
+  /// The grains whose motions this process knows at every step: its own, and copies. Empty without partners.
+  std::vector<std::uint32_t> held() const;
+
   /// Copies the motions of the grains that are copied from their owners. Returns the longest way of any of them and of the own
   /// [m], whose longest is given.
   double copy_motions(Grains<dim>& grains, double farthest_way);
@@ -49,14 +52,29 @@ public:
       bring(component);
   }
 
-  /// The values of all, one process after another; the own ones without partners.
+  /// The values of all, one process after another; the own ones without partners. `counts`: of each process, where all know
+  /// them; else empty, and becomes them.
   template <typename T>
-  std::vector<T> gathered(const std::vector<T>& values, std::vector<std::size_t>* const counts = nullptr) const
+  std::vector<T> gathered(const std::vector<T>& values, std::vector<std::size_t>& counts) const
   {
     return is_shared() ? feldspar::gathered(*partners, values, counts) : values;
   }
-  /// Gathers several lists at once.
-  std::vector<std::vector<double>> gathered_lists(const std::vector<std::vector<double>>& lists) const;
+  template <typename T>
+  std::vector<T> gathered(const std::vector<T>& values) const
+  {
+    std::vector<std::size_t> counts;
+    return gathered(values, counts);
+  }
+  /// Of processes that have as many values each.
+  template <typename T>
+  std::vector<T> gathered_alike(const std::vector<T>& values) const
+  {
+    std::vector<std::size_t> counts(is_shared() ? partners->number() : 0, values.size());
+    return gathered(values, counts);
+  }
+  /// Gathers several lists at once; `counts` of the numbers in all messages.
+  std::vector<std::vector<double>> gathered_lists(const std::vector<std::vector<double>>& lists,
+                                                  std::vector<std::size_t>& counts) const;
   /// The largest of the values of all, one by one.
   std::vector<double> largest(const std::vector<double>& values) const;
   bool any(const bool here) const { return is_shared() ? largest({here ? 1.0 : 0.0})[0] > 0.0 : here; }

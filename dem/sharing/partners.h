@@ -18,7 +18,8 @@ public:
   virtual unsigned int number() const = 0; ///< how many there are
   virtual unsigned int mine() const = 0;   ///< from 0
 
-  /// The bytes of all, one process after another, on each; `sizes` becomes how many each gave.
+  /// The bytes of all, one process after another, on each. `sizes`: how many each gives, where all know that, which is faster;
+  /// else empty, and becomes it.
   virtual std::vector<std::byte> gathered(std::span<const std::byte> own, std::vector<std::size_t>& sizes) = 0;
   /// Sends to each process p the values sent[first_sent[p]] … and receives from it received[first_received[p]] …; both know
   /// how many. first: [number() + 1].
@@ -26,21 +27,19 @@ public:
                         std::vector<double>& received, const std::vector<std::size_t>& first_received) = 0;
 };
 
-/// The same of values; `counts`, where given, becomes how many each process gave.
+/// The same of values, `counts` of each process.
 template <typename T>
-std::vector<T> gathered(Partners& partners, const std::vector<T>& own, std::vector<std::size_t>* const counts = nullptr)
+std::vector<T> gathered(Partners& partners, const std::vector<T>& own, std::vector<std::size_t>& counts)
 {
   static_assert(std::is_trivially_copyable_v<T>);
-  std::vector<std::size_t> sizes;
+  std::vector<std::size_t> sizes(counts.size());
+  std::ranges::transform(counts, sizes.begin(), [](const std::size_t n) { return n * sizeof(T); });
   const std::vector<std::byte> bytes = partners.gathered(std::as_bytes(std::span(own)), sizes);
   std::vector<T> all(bytes.size() / sizeof(T));
   if (!all.empty())
     std::memcpy(static_cast<void*>(all.data()), bytes.data(), bytes.size());
-  if (counts != nullptr)
-    {
-      counts->resize(sizes.size());
-      std::ranges::transform(sizes, counts->begin(), [](const std::size_t n) { return n / sizeof(T); });
-    }
+  counts.resize(sizes.size());
+  std::ranges::transform(sizes, counts.begin(), [](const std::size_t n) { return n / sizeof(T); });
   return all;
 }
 } // namespace feldspar

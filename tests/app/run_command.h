@@ -79,4 +79,13 @@ inline void run_and_kill_once(const std::filesystem::path& folder, const std::st
   run_feldspar(folder, arguments, "sh '" + script + "'");
   std::filesystem::remove(script);
 }
+
+/// Assignments and launcher before the command. Ranks that wait give way, as there may be fewer cores. They find no gnuplot:
+/// no claim is on the pictures.
+inline std::string mpirun(const unsigned int n_ranks)
+{
+  return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 HWLOC_COMPONENTS=-gl "
+         "OMPI_MCA_mpi_yield_when_idle=1 mpirun -x " +
+         path_without_gnuplot() + " -np " + std::to_string(n_ranks) + " --oversubscribe";
+}
 } // namespace feldspar::tests

@@ -23,6 +23,7 @@ namespace feldspar
 namespace
 {
 namespace fs = std::filesystem;
+using tests::mpirun;
 using tests::Outcome;
 using tests::run_feldspar;
 using tests::run_without_pictures;
@@ -39,16 +40,6 @@ const std::string pull_of_ranks =
   "subsection Seeds\n  set Seeds = 4\nend\n"; // much breaks at once
 
 const std::string test_name = "direct_tension_seed_4";
-
-/// Assignments and launcher before the command. Ranks that wait give way, as there may be fewer cores. They find no gnuplot:
-/// no claim is on the pictures.
-std::string mpirun(const unsigned int n_ranks)
-{
-  return fmt::format("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 HWLOC_COMPONENTS=-gl "
-                     "OMPI_MCA_mpi_yield_when_idle=1 "
-                     "mpirun -x {} -np {} --oversubscribe",
-                     tests::path_without_gnuplot(), n_ranks);
-}
 
 std::vector<std::vector<std::string>> table(const fs::path& file)
 {

@@ -159,7 +159,7 @@ void expect_sums_behind_the_sweep(const std::size_t n_across)
         values.assign(values.size(), std::numeric_limits<double>::quiet_NaN());
       for (auto& values : summed.grains.couple)
         values.assign(values.size(), std::numeric_limits<double>::quiet_NaN());
-      const SumOrder order(joints_of, n);
+      const SumOrder order(joints_of, n, {0, std::uint32_t(summed.grains.size())});
       // One thread sums all grains that have joints behind these; several leave some whose joints lie in the runs of two of them.
       const std::size_t n_left = summed.grains.size() - order.first_behind.back();
       if (number_of_threads() == 1)

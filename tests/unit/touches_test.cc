@@ -37,7 +37,7 @@ void expect_that_no_touch_is_missed(const std::size_t n_across)
   EnergyLedger ledger(n);
   Touches<dim> looked_at, left_out, told_wrongly;
   for (auto* touches : {&looked_at, &left_out, &told_wrongly})
-    touches->search(body, images, no_joints, skin, ZeroForce::at_touch, ledger, [] {});
+    touches->search(body, images, BodyShare<dim>(n), no_joints, skin, ZeroForce::at_touch, ledger, [] {});
 
   std::size_t n_came = 0, n_missed = 0;
   for (int step = 0; step < 400; ++step)

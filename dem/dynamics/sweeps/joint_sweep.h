@@ -42,6 +42,7 @@ struct SweepMemory
   /// in the plane both in one four: x, y, φ.
   static constexpr std::size_t record_size = dim == 2 ? 4 : 8;
   std::vector<double, PageAllocator<double>> grain_records;
+  std::vector<std::uint32_t> moving; ///< the grains whose motions are known; empty: all
 };
 
 /// Work behind a sweep, while the processor still has the responses of the joints at hand.

@@ -349,16 +349,23 @@ void record_grains(const Grains<dim>& grains, const double dt, SweepMemory<dim>&
 {
   constexpr std::size_t size = SweepMemory<dim>::record_size, first_turn = size - (dim == 2 ? 2 : 4);
   memory.grain_records.resize(size * grains.size());
-  for_each_block(grains.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+  const auto record = [&](const std::size_t i) {
     double* const records = memory.grain_records.data();
-    for (std::size_t i = begin; i < end; ++i)
-      {
-        for (std::size_t c = 0; c < dim; ++c)
-          records[size * i + c] = grains.position[c][i];
-        for (std::size_t c = 0; c < n_rotations<dim>; ++c)
-          records[size * i + first_turn + c] = dt * grains.spin[c][i];
-      }
-  });
+    for (std::size_t c = 0; c < dim; ++c)
+      records[size * i + c] = grains.position[c][i];
+    for (std::size_t c = 0; c < n_rotations<dim>; ++c)
+      records[size * i + first_turn + c] = dt * grains.spin[c][i];
+  };
+  if (memory.moving.empty())
+    for_each_block(grains.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        record(i);
+    });
+  else
+    for_each_block(memory.moving.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        record(memory.moving[k]);
+    });
 }
 } // namespace joint_sweep
 

@@ -1,0 +1,212 @@
+// One body that several processes compute together, threads in their place.
+
+#include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
+#include "dem/lab/protocols/grips.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/lab/surroundings.h"
+#include "dem/sharing/body_share.h"
+#include "laboratory/compression.h"
+#include "tests/temporary_folder.h"
+#include "tests/thread_partners.h"
+#include "tests/unit/small_specimen.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+using tests::ThreadPartners;
+
+TestParameters quick(const LateralBoundary boundary = LateralBoundary::wall)
+{
+  TestParameters wanted;
+  wanted.of<CompressionParameters>().strain_rate = 4.0;
+  wanted.of<TensionParameters>().strain_rate = 1.0;
+  wanted.of<CompressionParameters>().sampling_strain = 5e-5;
+  wanted.of<TensionParameters>().sampling_strain = 5e-6;
+  wanted.of<ConfinementParameters>().lateral_boundary = boundary;
+  wanted.stop_strain_over_peak_strain = 1.1;
+  return wanted;
+}
+
+/// All that a test measures and its body is at the end.
+struct Measured
+{
+  std::vector<CurveSample> curve;
+  std::vector<Crack> cracks;
+  std::vector<EmissionEvent> events;
+  std::vector<Snapshot> snapshots;
+  std::vector<std::vector<double>> grains;
+};
+
+template <int dim>
+Measured measured(LabTest<dim>& test)
+{
+  const TestOutcome outcome = test.finish(false);
+  Measured all{outcome.record.curve, outcome.record.cracks, outcome.record.events, outcome.appearance.snapshots, {}};
+  for (const auto& grain : outcome.appearance.grains_at_end)
+    all.grains.push_back({grain.position[0], grain.position[1], grain.position[2], double(grain.fragment)});
+  return all;
+}
+
+void expect_same(const Measured& one, const Measured& other)
+{
+  ASSERT_EQ(one.curve.size(), other.curve.size());
+  for (std::size_t k = 0; k < one.curve.size(); ++k)
+    for (const auto& column : curve_columns)
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(column.get(one.curve[k])),
+                std::bit_cast<std::uint64_t>(column.get(other.curve[k])))
+        << column.name << " in row " << k;
+  ASSERT_EQ(one.cracks.size(), other.cracks.size());
+  const auto numbers = [](const Crack& crack) {
+    return std::tuple(crack.kind, crack.joint, crack.segment, crack.step, crack.axial_strain, crack.centroid,
+                      crack.normal, crack.size, crack.released_energy, crack.event);
+  };
+  for (std::size_t k = 0; k < one.cracks.size(); ++k)
+    EXPECT_EQ(numbers(one.cracks[k]), numbers(other.cracks[k])) << "crack " << k;
+  ASSERT_EQ(one.events.size(), other.events.size());
+  for (std::size_t k = 0; k < one.events.size(); ++k)
+    EXPECT_EQ(one.events[k].moment, other.events[k].moment) << "event " << k;
+  ASSERT_EQ(one.snapshots.size(), other.snapshots.size());
+  for (std::size_t k = 0; k < one.snapshots.size(); ++k)
+    {
+      EXPECT_EQ(one.snapshots[k].position, other.snapshots[k].position);
+      EXPECT_EQ(one.snapshots[k].stress, other.snapshots[k].stress);
+      EXPECT_EQ(one.snapshots[k].fragment, other.snapshots[k].fragment);
+      EXPECT_EQ(one.snapshots[k].n_broken_segments, other.snapshots[k].n_broken_segments);
+    }
+  EXPECT_EQ(one.grains, other.grains);
+}
+
+/// A test from its start to `n_rows` by partners together, whose state is then taken up by `n_after` of them; by one process
+/// where a number is 1.
+template <int dim>
+Measured led(const LaboratoryCase& which, const Specimen<dim>& specimen, const TestParameters& wanted,
+             const unsigned int n_before, const std::size_t n_rows, const unsigned int n_after)
+{
+  const tests::TemporaryFolder folder;
+  const auto lead = [&](const unsigned int n, const bool resumes, const std::size_t last_row) {
+    const auto work = [&](Partners& partners) {
+      LabTest<dim> test(which, specimen, wanted, {});
+      if (resumes)
+        test.read_checkpoint(folder.path() / "kept.h5", "it");
+      if (n > 1)
+        test.share(partners);
+      while (!test.has_ended() && test.curve().size() < last_row)
+        test.advance();
+      test.collect();
+      if (partners.mine() == 0)
+        test.write_checkpoint(folder.path() / (resumes ? "end.h5" : "kept.h5"), "it");
+      test.drop();
+    };
+    ThreadPartners(n).run(work);
+  };
+  lead(n_before, false, n_rows);
+  lead(n_after, true, 1000000);
+  LabTest<dim> whole(which, specimen, wanted, {});
+  whole.read_checkpoint(folder.path() / "end.h5", "it");
+  return measured(whole);
+}
+
+template <int dim>
+Measured alone(const LaboratoryCase& which, const Specimen<dim>& specimen, const TestParameters& wanted)
+{
+  LabTest<dim> test(which, specimen, wanted, {});
+  while (test.advance())
+    ;
+  return measured(test);
+}
+
+TEST(SharedBody, TensionInThePlaneHasTheBitsOfOneProcess)
+{
+  const auto specimen = small_specimen();
+  const Measured one = alone<2>({direct_tension}, specimen, quick());
+  ASSERT_GT(one.cracks.size(), 10u);
+  expect_same(one, led<2>({direct_tension}, specimen, quick(), 2, 10, 3));
+}
+
+TEST(SharedBody, CompressionInThePlaneHasTheBitsOfOneProcess)
+{
+  const auto specimen = small_specimen();
+  const Measured one = alone<2>({uniaxial_compression}, specimen, quick());
+  ASSERT_GT(one.cracks.size(), 50u);
+  expect_same(one, led<2>({uniaxial_compression}, specimen, quick(), 3, 40, 1));
+  expect_same(one, led<2>({uniaxial_compression}, specimen, quick(), 1, 40, 4));
+}
+
+TEST(SharedBody, UnderServoAndMembraneHasTheBitsOfOneProcess)
+{
+  const auto specimen = small_specimen();
+  for (const LateralBoundary boundary : {LateralBoundary::wall, LateralBoundary::membrane})
+    {
+      const LaboratoryCase confined{triaxial_compression, 20e6};
+      const Measured one = alone<2>(confined, specimen, quick(boundary));
+      ASSERT_GT(one.cracks.size(), 50u);
+      expect_same(one, led<2>(confined, specimen, quick(boundary), 2, 40, 5));
+    }
+}
+
+TEST(SharedBody, CylinderHasTheBitsOfOneProcess)
+{
+  const auto specimen = small_cylinder();
+  for (const LaboratoryCase& which : {LaboratoryCase{direct_tension}, LaboratoryCase{triaxial_compression, 10e6}})
+    {
+      const Measured one = alone<3>(which, specimen, quick());
+      ASSERT_GT(one.cracks.size(), 10u);
+      expect_same(one, led<3>(which, specimen, quick(), 3, 20, 2));
+    }
+}
+
+TEST(SharedBody, MorePartnersThanGrainsAreNoTrouble)
+{
+  const auto pair = placed_specimen({1e-3, 1e-3}, {{{0.0, 2.01e-3}, {0.0, 0.0}}}); // which meet
+  const auto after_some_steps = [](Dynamics<2>& dynamics) {
+    for (int k = 0; k < 2000; ++k)
+      dynamics.step();
+    dynamics.know_all_motions();
+    return dynamics.specimen().grains.velocity[0];
+  };
+  const auto set_off = [&] {
+    Dynamics<2> dynamics(pair, {}, ZeroForce::at_touch);
+    dynamics.push(0, {1.0, 0.0});
+    return dynamics;
+  };
+  Dynamics<2> whole = set_off();
+  const std::vector<double> of_one = after_some_steps(whole);
+  EXPECT_NE(of_one[1], 0.0) << "they have not met";
+  ThreadPartners(4).run([&](Partners& partners) {
+    Dynamics<2> part = set_off();
+    part.share(partners);
+    EXPECT_EQ(after_some_steps(part), of_one) << "partner " << partners.mine();
+  });
+}
+
+TEST(SharedBody, RefusesByNameWhatIsNotSharedYet)
+{
+  const auto specimen = small_specimen();
+  TestParameters heavy = quick();
+  heavy.gravity = {0.0, -9.81};
+  ThreadPartners(2).run([&](Partners& partners) {
+    LabTest<2> test({uniaxial_compression}, specimen, heavy, {});
+    try
+      {
+        test.share(partners);
+        ADD_FAILURE() << "it is shared";
+      }
+    catch (const InputError& error)
+      {
+        EXPECT_STREQ(error.what(), "a body under gravity cannot be computed by several processes together yet");
+      }
+  });
+}
+} // namespace
+} // namespace feldspar
