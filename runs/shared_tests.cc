@@ -8,6 +8,7 @@
 #include "runs/process_partners.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace feldspar
 {
@@ -28,19 +29,25 @@ struct SharedCheckpoints
 };
 
 template <int dim>
-void run_shared_test(const LaboratoryOrder& order, const Specimen<dim>& specimen, const std::filesystem::path& folder,
-                     const std::size_t part, RunObserver& observer)
+void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<dim>(std::size_t)>& specimen,
+                     const std::filesystem::path& folder, const std::size_t part, RunObserver& observer)
 {
   const Checkpoints checkpoints(folder, order.name, order.identity);
   const auto begin = [&] {
-    return LabTest<dim>({protocol_of(order.test.kind), order.test.confining_pressure}, specimen, *order.parameters,
-                        *order.dynamics);
+    return LabTest<dim>({protocol_of(order.test.kind), order.test.confining_pressure}, specimen(order.specimen),
+                        *order.parameters, *order.dynamics);
   };
-  LabTest<dim> test = checkpoints.open(begin, observer);
+  ProcessesAsPartners partners;
+  std::optional<LabTest<dim>> kept;
+  ranks::in_turn([&] {
+    kept.emplace(checkpoints.open(begin, observer));
+    if (!kept->has_ended())
+      kept->share(partners);
+  });
+  LabTest<dim>& test = *kept;
   if (test.has_ended())
     return;
-  ProcessesAsPartners partners;
-  test.share(partners);
+  test.meet();
   std::uint64_t n_asked = 0;
   const auto end_if_one_wants = [&] {
     constexpr std::uint64_t steps_between = 50;
@@ -54,8 +61,9 @@ void run_shared_test(const LaboratoryOrder& order, const Specimen<dim>& specimen
 } // namespace
 
 template <int dim>
-void run_shared_tests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& specimens,
-                      const std::filesystem::path& folder, RunObserver& observer)
+void run_shared_tests(const std::vector<LaboratoryOrder>& orders,
+                      const std::function<Specimen<dim>(std::size_t)>& specimen, const std::filesystem::path& folder,
+                      RunObserver& observer)
 {
   const std::filesystem::path checkpoint_folder = folder / "checkpoints";
   ranks::first([&] { std::filesystem::create_directories(checkpoint_folder); });
@@ -65,7 +73,7 @@ void run_shared_tests(const std::vector<LaboratoryOrder>& orders, std::vector<Sp
         throw Interrupted();
       try
         {
-          run_shared_test<dim>(orders[k], specimens[orders[k].specimen], checkpoint_folder, k, observer);
+          run_shared_test<dim>(orders[k], specimen, checkpoint_folder, k, observer);
         }
       catch (const InputError&) // the same on all: run_tests() meets it again, and reports it
         {

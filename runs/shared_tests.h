@@ -2,16 +2,20 @@
 
 #include "runs/laboratory.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 /// Laboratory tests whose body all processes compute together.
 namespace feldspar
 {
 /// Leads each test, one after another, by all processes together to its end, or to where the observer of one of them wants the
-/// end, and leaves its last two checkpoints in `folder`/checkpoints, from which run_tests() takes it up. All processes have the
-/// specimens; a test that cannot be made or shared is left to run_tests(). Collective.
+/// end, and leaves its last two checkpoints in `folder`/checkpoints, from which run_tests() takes it up. `specimen` gives the
+/// specimen of a number, in one process of a machine at a time; each process keeps its own part of it. A test that cannot be made
+/// is left to run_tests(), which tells why. Throws Interrupted, and InputError for one that cannot be shared. Collective.
 template <int dim>
-void run_shared_tests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& specimens,
-                      const std::filesystem::path& folder, RunObserver& observer);
+void run_shared_tests(const std::vector<LaboratoryOrder>& orders,
+                      const std::function<Specimen<dim>(std::size_t)>& specimen, const std::filesystem::path& folder,
+                      RunObserver& observer);
 } // namespace feldspar

@@ -68,12 +68,11 @@ void share_out_tests(const Run& run, Progress& progress)
 {
   const RunPlan plan(run.input);
   check_memory_of_tests(plan);
+  const bool together = makes_tests_together(plan);
   share_out_specimens<dim>(plan, run.folder, progress);
-  if (makes_tests_together(plan))
+  if (together)
     {
-      std::vector<Specimen<dim>> specimens;
-      together_or_interrupted([&] { specimens = provide_specimens<dim>(plan, run.folder, progress); });
-      run_together(plan, plan_tests(plan, specimens), specimens, run.folder, progress);
+      run_together<dim>(plan, run.folder, progress);
       return;
     }
   together_or_interrupted([&] {

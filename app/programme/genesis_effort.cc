@@ -105,17 +105,19 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
   // Steps: measured on two seeds each of 100 to 2000 discs and 250 to 4500 spheres, within a factor of two; a cell that
   // repeats itself takes longer to come to rest. Seconds: of these on one core of 2020s' servers.
   const bool plane = specimen.dimension == 2;
-  const double n = expected_grains(specimen);
+  const double n_of_all = expected_grains(specimen), bytes = n_of_all * bytes_of_grain(specimen.dimension);
+  const double n = // that are packed
+    n_of_all / (std::pow(specimen.cells_across, specimen.dimension - 1) * specimen.cells_along);
   if (specimen.packed_by_descent)
     {
       // Measured on 90 to 1950 discs and 140 to 49 000 spheres, three seeds each, again within a factor of two.
       const double n_iterations = plane ? 250.0 * std::pow(n, 0.36) : 900.0 * std::pow(n, 0.22);
-      return {n, n_iterations, n * bytes_of_grain(specimen.dimension), n * n_iterations * (plane ? 4e-8 : 1.2e-7)};
+      return {n_of_all, n_iterations, bytes, n * n_iterations * (plane ? 4e-8 : 1.2e-7)};
     }
   const double longer = is_periodic(specimen.shape_when_packed()) ? 1.8 : 1.0;
   const double n_steps = longer * (plane ? 900.0 * std::pow(n, 0.45) : 2400.0 * std::pow(n, 0.38));
   const double seconds_of_grain_and_step = plane ? 4e-8 : 1.6e-7;
-  return {n, n_steps, n * bytes_of_grain(specimen.dimension), n * n_steps * seconds_of_grain_and_step};
+  return {n_of_all, n_steps, bytes, n * n_steps * seconds_of_grain_and_step};
 }
 
 namespace

@@ -1,13 +1,17 @@
 #include "app/programme/lab_run.h"
 
+#include "app/input/parameter_table.h"
 #include "app/programme/checks.h"
 #include "app/programme/genesis_effort.h"
 #include "app/programme/laboratory_effort.h"
 #include "app/programme/run_board.h"
 #include "app/run/run_record.h"
 #include "app/screen/expected_length.h"
+#include "base/contains.h"
+#include "base/input_error.h"
 #include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/specimen_file.h"
 #include "runs/shared_tests.h"
 
 #include <fmt/format.h>
@@ -70,22 +74,67 @@ std::vector<BoardPart> parts_of(const RunPlan& plan, const std::vector<Laborator
 }
 } // namespace
 
+namespace
+{
+/// What keeps a test of an input from being made by processes together; empty: nothing.
+std::string not_shared_yet(const Input& input)
+{
+  if (input.clumps.diameter || input.minerals.form_of_rock() == MineralGrainForm::rigid)
+    return "clumps";
+  if (has_smooth_joints(input))
+    return "smooth joints";
+  if (!input.tests.gravity.empty())
+    return "gravity";
+  for (const TestKind& kind : {own_loading.kind, tilt.kind, three_point_bending.kind, semicircular_bending.kind})
+    if (contains(input.test_list, kind))
+      return std::string(kind.name);
+  return {};
+}
+} // namespace
+
 bool makes_tests_together(const RunPlan& plan)
 {
   constexpr double large = 1e5; // grains
-  return std::ranges::any_of(plan.orders, [&](const SpecimenOrder& order) {
-    const Input& input = plan.input_of(order);
-    return input.shared_body == SharedBody::always ||
-           (input.shared_body == SharedBody::by_size && expected_effort(input.specimen).n_grains >= large);
-  });
+  const Input& first = plan.variants.front().input;
+  if (first.shared_body == SharedBody::never)
+    return false;
+  for (const Variant& variant : plan.variants)
+    if (const std::string what = not_shared_yet(variant.input); !what.empty())
+      {
+        if (first.shared_body == SharedBody::always)
+          throw InputError("Tests/Shared body = always: {} cannot be computed by several processes together yet; set "
+                           "by size or never",
+                           what);
+        return false;
+      }
+  return first.shared_body == SharedBody::always || std::ranges::any_of(plan.orders, [&](const SpecimenOrder& order) {
+           return expected_effort(plan.input_of(order).specimen).n_grains >= large;
+         });
 }
 
 template <int dim>
-void run_together(const RunPlan& plan, const std::vector<LaboratoryOrder>& tests, std::vector<Specimen<dim>>& specimens,
-                  const std::filesystem::path& folder, Progress& progress)
+void run_together(const RunPlan& plan, const std::filesystem::path& folder, Progress& progress)
 {
-  RunBoard board(progress, "tests", parts_of(plan, tests, specimens));
-  run_shared_tests(tests, specimens, folder, board);
+  std::vector<LaboratoryOrder> tests;
+  std::vector<BoardPart> parts;
+  bool was_interrupted = false;
+  ranks::in_turn([&] {
+    try
+      {
+        const auto specimens = provide_specimens<dim>(plan, folder, progress);
+        tests = plan_tests(plan, specimens);
+        parts = parts_of(plan, tests, specimens);
+      }
+    catch (const Interrupted&)
+      {
+        was_interrupted = true;
+      }
+  });
+  if (ranks::any(was_interrupted))
+    throw Interrupted();
+  RunBoard board(progress, "tests", parts);
+  const auto specimen = [&](const std::size_t k) { return read_specimen<dim>(folder / (plan.orders[k].name + ".h5")); };
+  run_shared_tests<dim>(tests, specimen, folder, board);
   progress.finish(fmt::format("{} by {} processes together", tests.size(), ranks::number()));
 }
 

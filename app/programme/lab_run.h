@@ -22,10 +22,9 @@ std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<S
 /// Returns whether all processes of a run make its tests together.
 bool makes_tests_together(const RunPlan& plan);
 
-/// Leads tests as run_shared_tests() does, and shows it.
+/// Leads all tests on the specimens in the folder as run_shared_tests() does, and shows it.
 template <int dim>
-void run_together(const RunPlan& plan, const std::vector<LaboratoryOrder>& tests, std::vector<Specimen<dim>>& specimens,
-                  const std::filesystem::path& folder, Progress& progress);
+void run_together(const RunPlan& plan, const std::filesystem::path& folder, Progress& progress);
 
 /// Runs tests as run_tests() does, which takes the grains of the specimens, and shows it. `tells_failures`: whether a test
 /// that cannot be made is said at once.

@@ -218,6 +218,39 @@ void together(const std::function<void()>& work)
   throw std::runtime_error(what);
 }
 
+void in_turn(const std::function<void()>& work)
+{
+  together([&] {
+    MPI_Comm machine = MPI_COMM_NULL;
+    int n = 1, of_machine = 0;
+    if (!is_alone())
+      {
+        MPI_Comm_split_type(of_group, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+        MPI_Comm_size(machine, &n);
+        MPI_Comm_rank(machine, &of_machine);
+      }
+    std::exception_ptr failure;
+    for (int turn = 0; turn < n; ++turn)
+      {
+        if (turn == of_machine)
+          try
+            {
+              work();
+            }
+          catch (...)
+            {
+              failure = std::current_exception();
+            }
+        if (machine != MPI_COMM_NULL)
+          MPI_Barrier(machine);
+      }
+    if (machine != MPI_COMM_NULL)
+      MPI_Comm_free(&machine);
+    if (failure)
+      std::rethrow_exception(failure);
+  });
+}
+
 void first(const std::function<void()>& work)
 {
   together([&] {

@@ -40,6 +40,9 @@ void exchange(const std::vector<double>& sent, const std::vector<std::size_t>& f
 /// OutputError (std::system_error too) or, of anything else, std::runtime_error.
 void together(const std::function<void()>& work);
 
+/// Work of each rank in its turn, as together(): one at a time of those on a machine, whose memory it may take.
+void in_turn(const std::function<void()>& work);
+
 /// Work that only the first rank does; else as together().
 void first(const std::function<void()>& work);
 } // namespace feldspar::ranks

@@ -64,17 +64,18 @@ public:
   /// work.
   void apply_forces(const Components<dim>& forces);
 
-  /// Computes the body together with partners from now on, which all have it as it stands: each keeps the joints and contacts
-  /// of its own grains. Every function that is not const, and every measure, is then called by all of them at once. Results
-  /// are the same to the bit for any number of partners. Throws ParameterError for a body that cannot be shared.
+  /// Keeps the joints and contacts of the own grains alone, to compute the body together with partners, which all have it as it
+  /// stands. Once all have done so, by meet() too, every function that is not const, and every measure, is called by all of
+  /// them at once. Results are the same to the bit for any number of partners. Throws InputError for a body that cannot be
+  /// shared.
   void share(Partners& with);
+  void meet();
   const BodyShare<dim>& sharing() const { return part; }
   /// Brings the motions of all grains of a shared body up to date, which otherwise are those of the own ones and their
   /// neighbours.
   void know_all_motions();
-  /// On the first process: the whole state of a shared body, until drop() or the next step.
+  /// On the first process: the whole state of a shared body, until drop(), which all call before the next step.
   void collect();
-  /// Drops what other processes compute.
   void drop();
 
   /// Advances by one step and returns what broke in it, of a shared body that which this process counts. Throws Runaway where numbers have gone wrong, which it looks for
@@ -160,6 +161,7 @@ private:
   std::vector<Break> agree(std::vector<Break> breaks, double dt);
   double largest_stiffness_ratio() const;
   void agree_on_copies();
+  void keep_own();
   void add_boundary_work(double dt, double share);
 
   Specimen<dim> body;
@@ -173,7 +175,7 @@ private:
   BodyShare<dim> part;
   std::vector<Vector<dim>> shared_grip_forces; ///< of a shared body; else empty [N]
   std::vector<std::size_t> term_counts; ///< of the terms that each process tells in a step; empty: to be asked for
-  std::vector<double> released; ///< by each break of the last step, by the numbers of joint and segment [J]
+  std::vector<double> released;         ///< by each break of the last step, by the numbers of joint and segment [J]
   RigidGroups<dim> groups;
   Touches<dim> touches;
   Walls<dim> wall_set;

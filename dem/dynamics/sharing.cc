@@ -47,7 +47,7 @@ void Dynamics<dim>::share(Partners& with)
   part = BodyShare<dim>(with, body);
   if (!part.is_first())
     ledger.slip_of_lost_contacts = {};
-  drop();
+  keep_own();
 }
 
 template <int dim>
@@ -55,6 +55,15 @@ void Dynamics<dim>::drop()
 {
   if (!part.is_shared())
     return;
+  if (part.is_first())
+    keep_own();
+  meet();
+}
+
+/// Drops what other processes compute.
+template <int dim>
+void Dynamics<dim>::keep_own()
+{
   auto& joints = body.joints;
   std::vector<std::size_t> kept;
   for (std::size_t j = 0; j < joints.size(); ++j)
@@ -78,6 +87,13 @@ void Dynamics<dim>::drop()
   joint_groups = JointGroups<dim>(joints);
   index_joints();
   touches.number(images);
+}
+
+template <int dim>
+void Dynamics<dim>::meet()
+{
+  if (!part.is_shared() || !started)
+    return;
   agree_on_copies();
   agree({}, 0.0);
 }
@@ -265,6 +281,8 @@ void Dynamics<dim>::collect()
 
 template void Dynamics<2>::share(Partners&);
 template void Dynamics<3>::share(Partners&);
+template void Dynamics<2>::meet();
+template void Dynamics<3>::meet();
 template void Dynamics<2>::drop();
 template void Dynamics<3>::drop();
 template void Dynamics<2>::agree_on_copies();

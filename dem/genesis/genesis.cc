@@ -208,8 +208,8 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   specimen.size[dim - 1] = wanted.height;
   if (wanted.is_cored()) // a cell of the body that it is put together from
     {
-      specimen.size[0] /= wanted.cells_across;
-      specimen.size[dim - 1] /= wanted.cells_along;
+      specimen.size /= wanted.cells_across;
+      specimen.size[dim - 1] = wanted.height / wanted.cells_along;
     }
   specimen.shape = wanted.shape_when_packed();
   specimen.bulk_density = wanted.bulk_density;
@@ -232,8 +232,7 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   if (!wanted.is_cored())
     return specimen;
   std::array<unsigned int, dim> n_cells;
-  n_cells.fill(1);
-  n_cells[0] = wanted.cells_across;
+  n_cells.fill(wanted.cells_across);
   n_cells[dim - 1] = wanted.cells_along;
   return cored<dim>(repeated<dim>(specimen, n_cells), wanted.shape);
 }

@@ -82,9 +82,10 @@ public:
   LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const TestParameters& wanted,
           const DynamicsParameters& dynamics);
 
-  /// Runs the test together with partners from now on, which all have it as it stands: every function is then called by all of
-  /// them at once. Throws InputError for a test that cannot be shared.
+  /// Keeps the own part of the body, to run the test together with partners, which all have it as it stands, as
+  /// Dynamics::share(). Throws InputError for a test that cannot be shared.
   void share(Partners& with);
+  void meet() { set_up.dynamics.meet(); }
 
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
   /// the stop rule, after its last stage, or because numbers went wrong, which its record then says. Calls check() at

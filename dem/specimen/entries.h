@@ -21,11 +21,10 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
   const EntryFlags of_body{.of_specimen = true}; // one for all variants
   const EntryFlags basic_of_rock{.varies = true, .of_specimen = true, .basic = true};
   const EntryFlags basic_of_body{.of_specimen = true, .basic = true};
-  constexpr std::string_view cells_need = "needs Coring = free sides or sides only, and Dimension = 2";
+  constexpr std::string_view cells_need = "needs Coring = free sides or sides only";
   const EntryFlags of_cells{.varies = true,
                             .of_specimen = true,
-                            .demands = {{"", "Specimen/Coring", {"free sides", "sides only"}, cells_need},
-                                        {"", "Specimen/Dimension", {"2"}, cells_need}}};
+                            .demands = {{"", "Specimen/Coring", {"free sides", "sides only"}, cells_need}}};
   EntryFlags of_cells_along = of_cells;
   of_cells_along.demands.push_back(
     {"", "Specimen/Coring", {"free sides"}, "needs Coring = free sides; sides only has walls at the ends of a cell"});
@@ -93,10 +92,11 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
            {"box", "cylinder"},
            "a periodic cell has no sides to be cut free; set Shape = box or cylinder"},
           {"", "Specimen/Packing file", {}, "excludes Packing file, whose grains are not packed as a periodic cell"}}}),
-    entry::integer("Cells across", &P::cells_across, {'[', 1.0, 1000.0, ']'},
-                   "of a cored specimen in the plane: it is put together from so many equal cells, each with the same "
-                   "grains, joints and strengths as a representative volume of that size and seed",
-                   of_cells),
+    entry::integer(
+      "Cells across", &P::cells_across, {'[', 1.0, 1000.0, ']'},
+      "of a cored specimen: it is put together from so many equal cells along each side, each with the same "
+      "grains, joints and strengths as a representative volume of that size and seed, which alone is packed",
+      of_cells),
     entry::integer("Cells along", &P::cells_along, {'[', 1.0, 1000.0, ']'}, "the same along the axis of the tests",
                    of_cells_along),
     entry::file(

@@ -53,7 +53,7 @@ struct SpecimenParameters
   bool packed_by_descent = true;      ///< grains come to rest by descent, not by damped dynamics
   std::string joint_law = "flat joint";
   Coring coring = Coring::none;
-  unsigned int cells_across = 1;     ///< of a cored specimen: equal cells that it is put together from
+  unsigned int cells_across = 1;     ///< of a cored specimen: equal cells that it is put together from, along each side
   unsigned int cells_along = 1;      ///< the same along the axis of the test
   std::string packing_file;          ///< empty: make a packing
   double packing_unit = 1.0;         ///< length of 1 in columns of the packing file without a unit [m]

@@ -291,5 +291,27 @@ TEST(Core, SameSeedSameBitsAndTheCellOfTheRepresentativeVolume)
   EXPECT_GT(back.report.n_cut_joints, 0u);
   EXPECT_EQ(back.report.n_removed_grains, one.report.n_removed_grains);
 }
+
+TEST(Core, OfCellsInSpaceHasTheGrainsOfTheRepresentativeVolumeInEach)
+{
+  SpecimenParameters wanted;
+  wanted.dimension = 3;
+  wanted.porosity = 0.37;
+  wanted.width = 0.012;
+  wanted.height = 0.018;
+  wanted.coring = Coring::free_sides;
+  wanted.cells_across = 2;
+  wanted.cells_along = 3;
+  const auto core = make_specimen<3>(wanted, FlatJointParameters(), {}, 1);
+  SpecimenParameters of_cell = wanted;
+  of_cell.coring = Coring::none;
+  of_cell.shape = BodyShape::periodic;
+  of_cell.width = of_cell.height = 0.006;
+  const auto whole =
+    cored(repeated<3>(make_specimen<3>(of_cell, FlatJointParameters(), {}, 1), {2, 2, 3}), BodyShape::box);
+  EXPECT_EQ(core.grains.position, whole.grains.position);
+  EXPECT_EQ(core.joints.cohesion, whole.joints.cohesion);
+  EXPECT_EQ(core.size, Vector<3>(0.012, 0.012, 0.018));
+}
 } // namespace
 } // namespace feldspar

@@ -139,6 +139,7 @@ subsection Tests
   set Platen friction = 0.1
   set Seating transits = 12
   set Steps between checkpoints = 500
+  set Shared body = always
   set Compression sampling strain = 2e-5
   set Tension sampling strain = 2e-6
   set Lateral boundary = membrane
@@ -450,6 +451,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.tests.platen_friction, 0.1);
   EXPECT_EQ(input.tests.seating_transits, 12.0);
   EXPECT_EQ(input.steps_between_checkpoints, 500u);
+  EXPECT_EQ(input.shared_body, SharedBody::always);
   const auto both = variants(input);
   ASSERT_EQ(both.size(), 2u);
   EXPECT_EQ(both[0].input.flat_joint.n_segments, 2u);
@@ -524,8 +526,7 @@ TEST(Input, EveryEntryOfCoresReachesItsMember)
   EXPECT_EQ(input.specimen.cells_along, 4u);
 }
 
-// A body without sides cannot be cut free, a packing made elsewhere is no cell, and cells belong to a core in the
-// plane.
+// A body without sides cannot be cut free, a packing made elsewhere is no cell, and cells belong to a core.
 TEST(Input, CoresAreRefusedWhereTheyCannotBe)
 {
   const auto refused = [](const std::string& entries) {
@@ -534,8 +535,6 @@ TEST(Input, CoresAreRefusedWhereTheyCannotBe)
   const std::string core = "  set Coring = free sides\n";
   EXPECT_NE(refused(core + "  set Shape = periodic\n").find("a periodic cell has no sides"), std::string::npos);
   EXPECT_NE(refused("  set Cells across = 2\n").find("needs Coring = free sides"), std::string::npos);
-  EXPECT_NE(refused(core + "  set Cells along = 2\n  set Dimension = 3\n").find("Cells along = 2: needs"),
-            std::string::npos);
   // Cells of 50 mm / 20, with grains up to 1.03 mm: less than four radii.
   EXPECT_NE(refused(core + "  set Cells across = 20\n").find("must be at least"), std::string::npos);
   EXPECT_EQ(refused(core + "  set Cells across = 10\n"), "");

@@ -100,7 +100,10 @@ Measured led(const LaboratoryCase& which, const Specimen<dim>& specimen, const T
       if (resumes)
         test.read_checkpoint(folder.path() / "kept.h5", "it");
       if (n > 1)
-        test.share(partners);
+        {
+          test.share(partners);
+          test.meet();
+        }
       while (!test.has_ended() && test.curve().size() < last_row)
         test.advance();
       test.collect();
