@@ -50,6 +50,8 @@ struct Snapshot
   /// xx, xy, xz, yy, yz, zz of each grain, tension positive [Pa]; it scatters from grain to grain by its own
   /// size. Empty where it is not known.
   std::array<std::vector<double>, 6> stress;
+  /// The same components of the strain of each mineral since the start (docs/theory.md §3.4). Empty where it is not known.
+  std::array<std::vector<double>, 6> mineral_strain;
   std::vector<std::uint32_t> fragment;          ///< of each grain, as in GrainPicture
   std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints since the start
 };

@@ -20,9 +20,14 @@ std::vector<MineralMeans> mineral_means(const TestRecord& record, const Snapshot
         for (std::size_t c = 0; c < 6; ++c)
           means[k].stress[c] += own * snapshot.stress[c][i];
       }
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < means.size(); ++k)
-    for (double& component : means[k].stress)
-      component = volume[k] > 0.0 ? component / volume[k] : std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t c = 0; c < 6; ++c)
+      {
+        double& stress = means[k].stress[c];
+        stress = volume[k] > 0.0 ? stress / volume[k] : unknown;
+        means[k].strain[c] = k < snapshot.mineral_strain[c].size() ? snapshot.mineral_strain[c][k] : unknown;
+      }
   for (const Crack& crack : record.cracks)
     if (crack.step <= snapshot.step && crack.mineral_1 > 0 && crack.mineral_2 <= means.size())
       {

@@ -1,6 +1,7 @@
 #include "runs/rve_view.h"
 
 #include "dem/specimen/fragments.h"
+#include "dem/specimen/mineral_sides.h"
 #include "dem/storage/segment_place.h"
 
 #include <utility>
@@ -31,6 +32,12 @@ RveView as_seen(const Specimen<dim>& specimen, const SampleRve<dim>& rve, const 
     return rest + strain * (rest - 0.5 * specimen.size) + fluctuation;
   };
 
+  const auto mineral_of = [&](const std::size_t i) {
+    return specimen.mineral.empty()
+             ? 0
+             : number_of_mineral(of_sample.minerals, specimen.minerals[specimen.mineral[i]].name);
+  };
+
   RveView seen;
   const auto fragment = fragments(joints, n_grains);
   for (const bool now : {false, true})
@@ -50,7 +57,8 @@ RveView as_seen(const Specimen<dim>& specimen, const SampleRve<dim>& rve, const 
             snapshot.position[c].push_back(position[Eigen::Index(c)]);
           if (now)
             seen.appearance.grains_at_end.push_back(
-              {in_space<dim>(placed(rest)), in_space<dim>(position), specimen.grains.radius[i], fragment[i]});
+              {in_space<dim>(placed(rest)), in_space<dim>(position), specimen.grains.radius[i], fragment[i],
+               specimen.groups.empty() ? 0 : specimen.groups[i] + 1, 0.0, mineral_of(i)});
         }
       snapshot.fragment = now ? fragment : std::vector<std::uint32_t>(n_grains, 0);
       snapshot.n_broken_segments = now ? n_broken : std::vector<std::uint32_t>(n_grains, 0);

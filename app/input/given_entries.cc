@@ -101,22 +101,43 @@ GivenEntries::GivenEntries(const std::filesystem::path& file, const std::vector<
 
 std::string GivenEntries::value(const std::string_view section, const std::string_view entry) const
 {
-  const GivenEntry* const given = find(section, entry);
+  const GivenEntry* const given = valid(section, entry);
   return given ? given->value : find_parameter(section, entry)->default_text();
+}
+
+GivenEntries GivenEntries::with(const std::vector<VariantSetting>& settings, const std::string_view section,
+                                const std::string_view entry) const
+{
+  GivenEntries changed = *this;
+  const GivenEntry* const source = find(entries, section, entry);
+  for (const VariantSetting& setting : settings)
+    {
+      const std::size_t slash = setting.entry.find('/');
+      changed.of_variant.push_back({setting.entry.substr(0, slash), setting.entry.substr(slash + 1), setting.value,
+                                    source ? source->place : name});
+    }
+  return changed;
 }
 
 InputError GivenEntries::error(const std::string_view section, const std::string_view entry,
                                const std::string_view text) const
 {
-  const GivenEntry* const given = find(section, entry);
+  const GivenEntry* const given = valid(section, entry);
   return InputError("{}: {}/{} = {}: {}", given ? given->place : name, section, entry, excerpt(value(section, entry)),
                     text);
 }
 
-const GivenEntry* GivenEntries::find(const std::string_view section, const std::string_view entry) const
+const GivenEntry* GivenEntries::find(const std::vector<GivenEntry>& among, const std::string_view section,
+                                     const std::string_view entry)
 {
   const auto found = std::ranges::find_if(
-    entries, [&](const GivenEntry& candidate) { return candidate.section == section && candidate.entry == entry; });
-  return found == entries.end() ? nullptr : &*found;
+    among, [&](const GivenEntry& candidate) { return candidate.section == section && candidate.entry == entry; });
+  return found == among.end() ? nullptr : &*found;
+}
+
+const GivenEntry* GivenEntries::valid(const std::string_view section, const std::string_view entry) const
+{
+  const GivenEntry* const varied = find(of_variant, section, entry);
+  return varied ? varied : find(entries, section, entry);
 }
 } // namespace feldspar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "results/variant_setting.h"
 
 #include <filesystem>
 #include <string>
@@ -51,18 +52,26 @@ public:
 
   const std::vector<GivenEntry>& all() const { return entries; }
 
-  bool has(std::string_view section, std::string_view entry) const { return find(section, entry) != nullptr; }
+  /// Returns whether the file gives an entry, whatever a variant sets.
+  bool has(std::string_view section, std::string_view entry) const { return find(entries, section, entry) != nullptr; }
 
-  /// Value as given, or else the default.
+  /// Value of the variant, else as given, or else the default.
   std::string value(std::string_view section, std::string_view entry) const;
+
+  /// The same for the errors of a variant, whose settings are given at the place of an entry.
+  GivenEntries with(const std::vector<VariantSetting>& settings, std::string_view section,
+                    std::string_view entry) const;
 
   /// An error about an entry: `beishan.prm:12: Flat joint/Bond friction angle = 95 deg: ` and the text.
   InputError error(std::string_view section, std::string_view entry, std::string_view text) const;
 
 private:
-  const GivenEntry* find(std::string_view section, std::string_view entry) const;
+  static const GivenEntry* find(const std::vector<GivenEntry>& among, std::string_view section, std::string_view entry);
+  /// The entry as the variant sets it, or else as it is given; none where it is neither.
+  const GivenEntry* valid(std::string_view section, std::string_view entry) const;
 
   std::string name;
   std::vector<GivenEntry> entries;
+  std::vector<GivenEntry> of_variant;
 };
 } // namespace feldspar

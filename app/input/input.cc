@@ -350,11 +350,8 @@ void check_flaws(const Input& input, const GivenEntries& values)
     const auto& [width, height] = std::pair(input.specimen.width, input.specimen.height);
     const std::string what = input.specimen.dimension == 2 ? objection<2>(shapes, Vector<2>(width, height))
                                                            : objection<3>(shapes, Vector<3>(width, width, height));
-    if (what.empty())
-      return;
-    if (values.has("Flaws", entry))
+    if (!what.empty())
       throw values.error("Flaws", entry, what);
-    throw values.error("Variants", "Values", what); // of Flaws/Shapes
   };
   check(input.flaws.shapes, "Shapes");
   check(input.flaws.placed_traces(), "Traces file");
@@ -445,16 +442,21 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
   check_joint_law(input, values);
   for (const Variant& variant : variants(input))
     {
-      check_bonds(variant.input, values);
-      check_demands(variant.input, values);
-      check_specimen(variant.input, values);
-      check_strain_path(variant.input, values);
-      check_flaws(variant.input, values);
-      check_smooth_joints(variant.input, values);
-      check_clumps(variant.input, values);
-      check_minerals(variant.input, values);
-      check_mineral_grains(variant.input, values);
+      const GivenEntries of_variant =
+        values.with(variant.settings, "Variants", input.variants.table.empty() ? "Values" : "Table");
+      check_bonds(variant.input, of_variant);
+      check_demands(variant.input, of_variant);
+      check_specimen(variant.input, of_variant);
+      check_strain_path(variant.input, of_variant);
+      check_flaws(variant.input, of_variant);
+      check_smooth_joints(variant.input, of_variant);
+      check_clumps(variant.input, of_variant);
+      check_minerals(variant.input, of_variant);
+      check_mineral_grains(variant.input, of_variant);
     }
+  if (!input.rocks.entries.empty())
+    for (const Variant& rock : rocks_of_sample(input))
+      check_minerals(rock.input, values.with(rock.settings, "Sample", "Rocks"));
   remark_on_map(input);
   return input;
 }

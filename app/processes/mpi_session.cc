@@ -121,7 +121,9 @@ int with_mpi(const std::function<int()>& program, MpiSession (*const bring_up)()
   std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
   {
     const MpiSession mpi = bring_up();
-    const ranks::Group all(all_started());
+    MPI_Comm of_machine;
+    MPI_Comm_split_type(all_started(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &of_machine);
+    const ranks::Group all(all_started(), of_machine);
     try
       {
         exit_code = guarded(program);

@@ -1,5 +1,6 @@
 #include "app/programme/rve_results.h"
 
+#include "base/colour.h"
 #include "base/whole_file.h"
 #include "coupling/rve/homogenisation.h"
 #include "results/folder/provenance_json.h"
@@ -65,7 +66,7 @@ void write_cracks(const std::vector<FinishedRve<dim>>& rves, const std::filesyst
     text += fmt::format(",{}_m", axes[c]);
   for (int c = 0; c < dim; ++c)
     text += fmt::format(",normal_{}", axes[c]);
-  text += ",size_m,released_energy_J\n";
+  text += ",size_m,released_energy_J,mineral_1,mineral_2,on_boundary\n";
   for (const auto& rve : rves)
     for (const auto& crack : rve.record.cracks)
       {
@@ -78,7 +79,9 @@ void write_cracks(const std::vector<FinishedRve<dim>>& rves, const std::filesyst
           fmt::format_to(std::back_inserter(text), ",{}", place.centroid[c]);
         for (int c = 0; c < dim; ++c)
           fmt::format_to(std::back_inserter(text), ",{}", place.normal[c]);
-        fmt::format_to(std::back_inserter(text), ",{},{}\n", place.size, crack.released_energy);
+        const MineralSides sides = rve.network->sides_of(crack.joint);
+        fmt::format_to(std::back_inserter(text), ",{},{},{},{},{:d}\n", place.size, crack.released_energy, sides.lower,
+                       sides.higher, sides.on_boundary);
       }
   write_whole_file(file, text);
 }
@@ -158,6 +161,9 @@ Json as_json(const FinishedRve<dim>& rve)
   json["installation_gap_ratio"] = rve.specimen.installation_gap_ratio;
   json["porosity"] = rve.specimen.porosity;
   json["cell_m"] = rows(network.cell());
+  for (const auto& [mineral, n_grains, share] : network.minerals())
+    json["minerals"].push_back(
+      {{"name", mineral.name}, {"colour", colour_text(mineral.colour)}, {"n_grains", n_grains}, {"share", share}});
   json["stiffness_Pa"] = rows(network.intact_stiffness());
   write_constants(json, isotropic_constants<dim>(network.intact_stiffness()));
   if (rve.mixture)

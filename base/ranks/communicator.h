@@ -9,7 +9,8 @@ namespace feldspar::ranks
 class Group
 {
 public:
-  explicit Group(MPI_Comm communicator);
+  /// `of_machine`: those of them on this machine, where it is known.
+  explicit Group(MPI_Comm communicator, MPI_Comm of_machine = MPI_COMM_NULL);
   Group(const Group&) = delete;
   Group& operator=(const Group&) = delete;
   ~Group();

@@ -15,7 +15,7 @@ namespace feldspar::ranks
 namespace
 {
 // Collective calls are of the process as a whole, as its standard output is.
-MPI_Comm of_group = MPI_COMM_NULL;
+MPI_Comm of_group = MPI_COMM_NULL, of_machine = MPI_COMM_NULL;
 
 bool is_alone() { return of_group == MPI_COMM_NULL; }
 
@@ -27,8 +27,12 @@ int all(const int here, const MPI_Op operation)
 }
 } // namespace
 
-Group::Group(const MPI_Comm communicator) { of_group = communicator; }
-Group::~Group() { of_group = MPI_COMM_NULL; }
+Group::Group(const MPI_Comm communicator, const MPI_Comm on_this_machine)
+{
+  of_group = communicator;
+  of_machine = on_this_machine == MPI_COMM_NULL ? communicator : on_this_machine;
+}
+Group::~Group() { of_group = of_machine = MPI_COMM_NULL; }
 
 MPI_Comm communicator() { return of_group; }
 
@@ -221,18 +225,16 @@ void together(const std::function<void()>& work)
 void in_turn(const std::function<void()>& work)
 {
   together([&] {
-    MPI_Comm machine = MPI_COMM_NULL;
-    int n = 1, of_machine = 0;
+    int n = 1, own_turn = 0;
     if (!is_alone())
       {
-        MPI_Comm_split_type(of_group, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-        MPI_Comm_size(machine, &n);
-        MPI_Comm_rank(machine, &of_machine);
+        MPI_Comm_size(of_machine, &n);
+        MPI_Comm_rank(of_machine, &own_turn);
       }
     std::exception_ptr failure;
     for (int turn = 0; turn < n; ++turn)
       {
-        if (turn == of_machine)
+        if (turn == own_turn)
           try
             {
               work();
@@ -241,11 +243,9 @@ void in_turn(const std::function<void()>& work)
             {
               failure = std::current_exception();
             }
-        if (machine != MPI_COMM_NULL)
-          MPI_Barrier(machine);
+        if (!is_alone())
+          MPI_Barrier(of_machine);
       }
-    if (machine != MPI_COMM_NULL)
-      MPI_Comm_free(&machine);
     if (failure)
       std::rethrow_exception(failure);
   });

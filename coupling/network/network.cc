@@ -144,6 +144,10 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       mean_stiffness += bonded_stiffnesses.back()(0, 0) * distance / double(number_of_joints);
     }
 
+  its_minerals = shares_of_minerals(specimen);
+  for (std::size_t j = 0; j < number_of_joints && !its_minerals.empty(); ++j)
+    sides.push_back(mineral_sides(specimen, joints.grain_1[j], joints.grain_2[j]));
+
   boundary_conditions = std::make_shared<const BoundaryConditions<dim>>(open.conditions(specimen).that_bear(
     all_links, number_of_joints, number_of_grains, [](std::uint32_t) { return true; }));
 

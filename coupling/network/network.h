@@ -4,6 +4,7 @@
 #include "coupling/network/factorised_network.h"
 #include "coupling/network/link.h"
 #include "dem/laws/joint_laws.h"
+#include "dem/specimen/mineral_sides.h"
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
@@ -88,6 +89,10 @@ public:
     const auto n = std::uint32_t(bonds.size());
     return segment < n ? segment / std::uint32_t(face.size()) : std::uint32_t(number_of_joints) + segment - n;
   }
+  /// Minerals of the cell; none where its grains are of none.
+  const std::vector<MineralShare>& minerals() const { return its_minerals; }
+  /// Minerals on both sides of a joint.
+  MineralSides sides_of(const std::size_t joint) const { return its_minerals.empty() ? MineralSides() : sides[joint]; }
   /// Segments without a bond from the start.
   const std::vector<std::uint32_t>& unbonded() const { return unbonded_at_rest; }
 
@@ -152,6 +157,8 @@ private:
   std::vector<double> grain_radii;
   std::vector<Bond<double>> bonds;
   std::vector<std::uint32_t> unbonded_at_rest;
+  std::vector<MineralShare> its_minerals;
+  std::vector<MineralSides> sides; ///< [n_joints] in a rock of minerals
   std::vector<JointStiffness<dim>> bonded_stiffnesses;
 
   std::unique_ptr<FactorisedNetwork<dim>> factorised;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace feldspar
 {
@@ -28,6 +29,10 @@ struct Realisation
   std::shared_ptr<const Network<dim>> at_side; ///< of elements on a free side; an edge, or as inside
   std::string rock;                            ///< for the cells of this rock alone; empty: for all that have none
 };
+
+/// Minerals of all realisations, a name once: their grains, and the means of their shares.
+template <int dim>
+std::vector<MineralShare> minerals_of(const std::vector<Realisation<dim>>& realisations);
 
 /// Realisation under a boundary; of the boundary of edges: periodic inside, and open along the first axis at sides.
 template <int dim>

@@ -49,6 +49,7 @@ void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const unsigne
   standing.n_points = body->n_points();
   standing.n_segments = body->n_segments();
   record.size = body->box();
+  record.minerals = body->minerals();
 }
 
 SampleSetUp SampleTest::Parts::set_up()

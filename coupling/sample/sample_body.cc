@@ -190,8 +190,9 @@ class FiniteElementBody final : public SampleBody
 {
 public:
   FiniteElementBody(const SampleParameters& its_sample, const SampleSetUp& set_up, fem::SampleMesh<dim> its_mesh,
-                    const fem::Material<material_dim>& material)
+                    const fem::Material<material_dim>& material, std::vector<MineralShare> of_rves)
     : sample(its_sample)
+    , its_minerals(std::move(of_rves))
     , platens{kinematics_of(sample.geometry), sample.rough_platens ? fem::Platens::rough : fem::Platens::smooth}
     , mesh(std::move(its_mesh))
     , lower_corner(dealii::GridTools::compute_bounding_box(*mesh.triangulation).get_boundary_points().first)
@@ -242,6 +243,7 @@ public:
     return ranks::sum(n);
   }
   std::size_t n_points_per_cell() const override { return solid.n_points_per_cell(); }
+  const std::vector<MineralShare>& minerals() const override { return its_minerals; }
 
   double top_displacement() const override { return solid.mean_displacement("top", dim - 1); }
   double lateral_strain() const override
@@ -268,6 +270,7 @@ public:
         const auto broken_here = solid.material_points()[i].cracks_of_last_step();
         if (broken_here.empty())
           continue;
+        const std::any structure = its_minerals.empty() ? std::any() : solid.material_points()[i].structure();
         EmissionEvent event{.number = solid.number_of_point(i), .centroid = in_box(i)};
         const double volume = thickness_ratio() * solid.volumes()[i];
         for (int k = 0; k < n_voigt<material_dim>; ++k)
@@ -279,9 +282,20 @@ public:
           {
             ++(broken.in_tension ? event.n_tension : event.n_shear);
             event.released_energy += volume * broken.released_density;
-            breaks.cracks.push_back({broken.in_tension ? CrackKind::tension : CrackKind::shear, event.number,
-                                     broken.segment, 0, 0.0, event.centroid, in_space<material_dim>(broken.normal),
-                                     broken.size, broken.released_energy});
+            Crack crack{broken.in_tension ? CrackKind::tension : CrackKind::shear,
+                        event.number,
+                        broken.segment,
+                        0,
+                        0.0,
+                        event.centroid,
+                        in_space<material_dim>(broken.normal),
+                        broken.size,
+                        broken.released_energy};
+            const MineralSides sides = sides_of(broken.segment, structure);
+            crack.mineral_1 = sides.lower;
+            crack.mineral_2 = sides.higher;
+            crack.on_boundary = sides.on_boundary;
+            breaks.cracks.push_back(crack);
           }
         breaks.events.push_back(event);
       }
@@ -361,6 +375,21 @@ private:
 
   std::size_t n_points_here() const { return solid.material_points().size(); }
 
+  /// Minerals on both sides of a segment of an RVE, by their numbers in minerals().
+  MineralSides sides_of(const std::uint32_t segment, const std::any& structure) const
+  {
+    const auto* const grains = std::any_cast<GrainStructure<material_dim>>(&structure);
+    if (grains == nullptr || grains->network->minerals().empty())
+      return {};
+    const Network<material_dim>& network = *grains->network;
+    const MineralSides own = network.sides_of(network.link_of_segment(segment));
+    const auto number = [&](const std::uint32_t k) {
+      return number_of_mineral(its_minerals, network.minerals()[k - 1].mineral.name);
+    };
+    const auto [lower, higher] = std::minmax({number(own.lower), number(own.higher)});
+    return {lower, higher, own.on_boundary};
+  }
+
   Vector<material_dim> position(const std::size_t i) const
   {
     const auto& place = solid.places()[i].position;
@@ -388,6 +417,7 @@ private:
   }
 
   SampleParameters sample;
+  std::vector<MineralShare> its_minerals;
   fem::PlatenTest<dim> platens;
   fem::SampleMesh<dim> mesh;
   dealii::Point<dim> lower_corner;
@@ -398,22 +428,22 @@ private:
 /// material_of: the material of a mesh.
 template <int dim, int material_dim, class MaterialOf>
 std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const SampleSetUp& set_up,
-                                      const MaterialOf& material_of)
+                                      const MaterialOf& material_of, const std::vector<MineralShare>& minerals)
 {
   fem::SampleMesh<dim> mesh = mesh_of<dim>(sample);
   const fem::Material<material_dim> material = material_of(mesh);
-  return std::make_unique<FiniteElementBody<dim, material_dim>>(sample, set_up, std::move(mesh), material);
+  return std::make_unique<FiniteElementBody<dim, material_dim>>(sample, set_up, std::move(mesh), material, minerals);
 }
 
 /// Makes the body with a mesh of the dimension that the geometry needs.
 template <int material_dim, class MaterialOf>
 std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const SampleSetUp& set_up,
-                                      const MaterialOf& material_of)
+                                      const MaterialOf& material_of, const std::vector<MineralShare>& minerals = {})
 {
   if constexpr (material_dim == 3)
     if (sample.geometry == SampleGeometry::cylinder)
-      return make_body<3, 3>(sample, set_up, material_of);
-  return make_body<2, material_dim>(sample, set_up, material_of);
+      return make_body<3, 3>(sample, set_up, material_of, minerals);
+  return make_body<2, material_dim>(sample, set_up, material_of, minerals);
 }
 } // namespace
 
@@ -462,12 +492,14 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   const Network<dim>& first = *realisations.front().inside;
   const double size = std::pow(first.volume() / first.thickness(), 1.0 / dim);
   const double unscaled = 0.0; // any element is larger
-  return make_body<dim>(sample, set_up, [&](const auto& mesh) {
+  const std::vector<MineralShare> minerals = minerals_of(realisations);
+  const auto material_of = [&](const auto& mesh) {
     material.keeps_factors =
       has_room_for_factors(mesh.triangulation->n_global_active_cells() * material.n_points_of_cell, first);
     auto rves = grain_material<dim>(std::move(realisations), material, rocks_of_cells(mesh, sample));
     return scaled_softening<dim>(std::move(rves), sample.scaled_softening ? size : unscaled);
-  });
+  };
+  return make_body<dim>(sample, set_up, material_of, minerals);
 }
 
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,

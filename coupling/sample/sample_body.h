@@ -60,6 +60,7 @@ public:
   virtual std::uint64_t n_points() const = 0;
   virtual std::uint64_t n_segments() const = 0; ///< of the RVEs at all points
   virtual std::size_t n_points_per_cell() const = 0;
+  virtual const std::vector<MineralShare>& minerals() const = 0; ///< of the RVEs; none without grains
 
   virtual double top_displacement() const = 0; ///< [m]
   /// Mean over the directions that are free to widen, by the volume between the sides at rest and as they are displaced.

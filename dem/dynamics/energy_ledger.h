@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/exact_sum.h"
+#include "dem/storage/exact_sum.h"
 #include "base/input_error.h"
 
 #include <cstddef>

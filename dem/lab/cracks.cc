@@ -1,9 +1,9 @@
 #include "dem/lab/cracks.h"
 
+#include "dem/specimen/mineral_sides.h"
 #include "dem/storage/segment_place.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace feldspar
@@ -45,12 +45,11 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
   result.normal = in_space<dim>(place.normal);
   result.size = place.size;
   result.released_energy = event.released_energy;
-  if (!body.mineral.empty())
-    {
-      const auto [one, two] = ends_of(body, event);
-      std::tie(result.mineral_1, result.mineral_2) = std::minmax(body.mineral[one] + 1, body.mineral[two] + 1);
-      result.on_boundary = body.groups[one] != body.groups[two];
-    }
+  const auto [one, two] = ends_of(body, event);
+  const MineralSides sides = mineral_sides(body, one, two);
+  result.mineral_1 = sides.lower;
+  result.mineral_2 = sides.higher;
+  result.on_boundary = sides.on_boundary;
   return result;
 }
 

@@ -51,6 +51,8 @@ void LabTest<dim>::transfer(Archive& archive)
         group.array(fmt::format("position_{}", "xyz"[c]), snapshot.position[c]);
       for (std::size_t c = 0; c < snapshot.stress.size(); ++c)
         group.array(fmt::format("stress_{}", c), snapshot.stress[c]);
+      for (std::size_t c = 0; c < snapshot.mineral_strain.size() && !record.minerals.empty(); ++c)
+        group.array(fmt::format("mineral_strain_{}", c), snapshot.mineral_strain[c]);
       group.array("fragment", snapshot.fragment);
       group.array("n_broken_segments", snapshot.n_broken_segments);
     }

@@ -133,6 +133,7 @@ void LabTest<dim>::start_gauge()
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
   gauge = StrainGauge<dim>(specimen.size, specimen.shape, BodyCentres<dim>(specimen, gauge_positions).all(), is_part);
+  mineral_gauge = MineralGauge<dim>(specimen, gauge_positions, is_part);
 }
 
 template <int dim>
@@ -363,6 +364,7 @@ Snapshot LabTest<dim>::snapshot() const
         for (int b = a; b < 3; ++b)
           now.stress[k++].push_back(b < dim ? symmetric(a, b) : 0.0);
     }
+  now.mineral_strain = mineral_gauge.strains(specimen);
   now.fragment = set_up.dynamics.fragments();
   now.n_broken_segments = n_broken_segments;
   return now;

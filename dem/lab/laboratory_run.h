@@ -4,6 +4,7 @@
 #include "dem/lab/emission.h"
 #include "dem/lab/energy_watch.h"
 #include "dem/lab/laboratory_protocol.h"
+#include "dem/lab/mineral_gauge.h"
 #include "dem/lab/strain_gauge.h"
 #include "laboratory/parameters.h"
 #include "laboratory/stage_walk.h"
@@ -145,6 +146,7 @@ private:
   double wall_time = 0.0;    ///< [s]
   std::vector<bool> is_part; ///< each grain, of the body, before anything broke
   StrainGauge<dim> gauge;
+  MineralGauge<dim> mineral_gauge;
   bool seated = false;
   bool ended = false;
   Components<dim> gauge_positions;       ///< of all grains when the gauge was set

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/exact_sum.h"
+#include "dem/storage/exact_sum.h"
 #include "dem/sharing/partners.h"
 #include "dem/specimen/specimen.h"
 

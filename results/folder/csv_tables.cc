@@ -262,7 +262,8 @@ void write_minerals(const std::vector<FinishedTest>& tests, const std::filesyste
 {
   std::string text =
     "test,step,axial_strain,mineral,share,n_grains,stress_xx_Pa,stress_xy_Pa,stress_xz_Pa,stress_yy_Pa,"
-    "stress_yz_Pa,stress_zz_Pa,n_cracks_within,n_cracks_on_boundaries\n";
+    "stress_yz_Pa,stress_zz_Pa,strain_xx,strain_xy,strain_xz,strain_yy,strain_yz,strain_zz,n_cracks_within,"
+    "n_cracks_on_boundaries\n";
   const std::size_t n_of_header = text.size();
   for (const auto& test : tests)
     for (const Snapshot& snapshot : test.appearance.snapshots)
@@ -271,10 +272,10 @@ void write_minerals(const std::vector<FinishedTest>& tests, const std::filesyste
         for (std::size_t k = 0; k < means.size(); ++k)
           {
             const MineralShare& of = test.record.minerals[k];
-            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{},{:.9g},{},{:.9g},{},{}\n", test.name,
+            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{},{:.9g},{},{:.9g},{:.9g},{},{}\n", test.name,
                            snapshot.step, test.record.kind.sign * snapshot.axial_strain + 0.0, of.mineral.name,
-                           of.share, of.n_grains, fmt::join(means[k].stress, ","), means[k].n_cracks_within,
-                           means[k].n_cracks_on_boundaries);
+                           of.share, of.n_grains, fmt::join(means[k].stress, ","), fmt::join(means[k].strain, ","),
+                           means[k].n_cracks_within, means[k].n_cracks_on_boundaries);
           }
       }
   if (text.size() > n_of_header)

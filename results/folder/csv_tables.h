@@ -32,7 +32,7 @@ std::string read_cracks(const std::filesystem::path& file, std::vector<FinishedT
 
 /// The events of acoustic emission of all tests, with their mechanisms (results/emission.h); nothing where there is none.
 void write_events(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
-/// The mean stress of each mineral and the cracks in it at the snapshots of all tests; nothing of rocks without minerals.
+/// The mean stress and the strain of each mineral and the cracks in it at the snapshots of all tests; nothing of rocks without minerals.
 void write_minerals(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
 /// Reads them as read_cracks() does; mechanisms follow from the moments.
 std::string read_events(const std::filesystem::path& file, std::vector<FinishedTest>& tests);

@@ -8,9 +8,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace feldspar::tests
 {
@@ -121,6 +124,85 @@ TEST(Minerals, OfATestThatWasKilledGoOnToTheSameBits)
   EXPECT_EQ(outcome.error.find("kept as"), std::string::npos) << outcome.error;
   for (const char* const file : {"cracks.csv", "minerals.csv", "curves/uniaxial_compression.csv"})
     EXPECT_EQ(content(folder.path() / "out" / file), content(folder.path() / "whole" / file)) << file;
+}
+
+/// A periodic rock of quartz and mica in which joints that lie where `weak` says have a fortieth of the strength of all
+/// others.
+void write_volume(const TemporaryFolder& folder, const std::string& weak)
+{
+  const bool in_mica = weak == "in mica";
+  folder.write("minerals.csv", "mineral,share [%],size [mm],tensile_strength_ratio,cohesion_ratio\n"
+                               "quartz,60,5,20,20\nmica,40,4," +
+                                 std::string(in_mica ? "0.5,0.5\n" : "20,20\n"));
+  folder.write("boundaries.csv", "mineral_1,mineral_2,tensile_strength_ratio,cohesion_ratio\n"
+                                 "quartz,quartz,20,20\nmica,mica,20,20\nmica,quartz," +
+                                   std::string(in_mica ? "20,20\n" : "0.5,0.5\n"));
+  folder.write("volume.prm", R"(subsection Specimen
+  set Shape  = periodic
+  set Width  = 14 mm
+  set Height = 14 mm
+end
+subsection Minerals
+  set Table      = minerals.csv
+  set Boundaries = boundaries.csv
+end
+subsection Strain path
+  set Direction = free, 1, free
+  set Size      = 2e-4
+end
+subsection Sample
+  set Width           = 12 mm
+  set Height          = 24 mm
+  set Elements across = 1
+  set Elements along  = 2
+  set Realisations    = 2
+end
+subsection Tests
+  set List        = direct_tension
+  set Stop strain = 2e-4
+end
+)");
+}
+
+/// Mineral on the one side, on the other, and whether a boundary is between them.
+using Sides = std::array<double, 3>;
+
+std::set<Sides> sides_of_cracks(const fs::path& file)
+{
+  CsvReader cracks(file);
+  std::set<Sides> sides;
+  while (cracks.next())
+    sides.insert({cracks.number(cracks.place("mineral_1")), cracks.number(cracks.place("mineral_2")),
+                  cracks.number(cracks.place("on_boundary"))});
+  return sides;
+}
+
+// All cracks are of the one kind of joint that can break.
+TEST(Minerals, OfCracksInVolumesAndSamplesAreThoseThatAreWeak)
+{
+  const TemporaryFolder folder;
+  for (const auto& [weak, sides] : {std::pair("in mica", Sides{2, 2, 0}), std::pair("between", Sides{1, 2, 1})})
+    {
+      write_volume(folder, weak);
+      for (const std::string solver : {"event by event", "explicit"})
+        {
+          const auto path = run_feldspar(folder.path(), "rve volume.prm --output rve --force --quiet --set 'Strain "
+                                                        "path/Solver = " +
+                                                          solver + "'");
+          ASSERT_EQ(path.exit_code, 0) << path.error;
+          EXPECT_EQ(sides_of_cracks(folder.path() / "rve/cracks.csv"), std::set{sides}) << weak << ", " << solver;
+        }
+      const auto rve = nlohmann::json::parse(content(folder.path() / "rve/summary.json"))["rves"][0];
+      EXPECT_EQ(rve["minerals"][1]["name"], "mica");
+
+      const auto run = run_without_pictures(folder.path(), "multiscale volume.prm --output out --force --quiet");
+      ASSERT_EQ(run.exit_code, 0) << run.error;
+      EXPECT_EQ(sides_of_cracks(folder.path() / "out/cracks.csv"), std::set{sides}) << weak;
+      const auto test = nlohmann::json::parse(content(folder.path() / "out/summary.json"))["tests"][0];
+      EXPECT_EQ(test["boundary_crack_share_at_peak"], sides[2]);
+      EXPECT_EQ(test["minerals"][1]["name"], "mica");
+      EXPECT_NEAR(test["minerals"][0]["share"].get<double>() + test["minerals"][1]["share"].get<double>(), 1.0, 1e-12);
+    }
 }
 
 /// K and G of a periodic volume lie between Hashin and Shtrikman's bounds in space and between Reuss's and Voigt's in the plane,

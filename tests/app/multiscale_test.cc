@@ -499,6 +499,22 @@ TEST(Multiscale, TakesTheRocksOfTheGroupsOfItsMesh)
   EXPECT_NE(changed.error.find("weak.csv is not as it was when the run began"), std::string::npos) << changed.error;
   EXPECT_EQ(std::count(changed.error.begin(), changed.error.end(), '\n'), 1) << changed.error;
 
+  // A mineral has one number in all rocks: mica, the second one of the left column and the first one of the right column,
+  // where it and its boundaries with biotite break.
+  folder.write("strong.csv", "mineral,share [%],size [mm]\nquartz,50,4\nmica,50,4\n");
+  folder.write("brittle.csv", "mineral,share [%],size [mm],tensile_strength_ratio,cohesion_ratio\n"
+                              "mica,50,4,0.1,0.1\nbiotite,50,4,1,1\n");
+  const std::filesystem::path mixed =
+    run("mixed",
+        "group,Minerals/Table,Flat joint/Bond tensile strength [MPa],Flat joint/Bond cohesion [MPa]\n"
+        "left_column,strong.csv,60,500\nright_column,brittle.csv,40,300\n",
+        "8e-5");
+  EXPECT_EQ(cells_that_broke(mixed), (std::set<int>{1}));
+  const auto one_side = column(mixed / "cracks.csv", "mineral_1");
+  EXPECT_EQ(std::set<double>(one_side.begin(), one_side.end()), std::set{2.0});
+  const auto other_side = column(mixed / "cracks.csv", "mineral_2");
+  EXPECT_EQ(std::set<double>(other_side.begin(), other_side.end()), (std::set{2.0, 3.0}));
+
   const auto refused = [&](const std::string& rocks, const std::string& words) {
     folder.write("bad.csv", rocks);
     folder.write("bad.prm",
@@ -513,6 +529,9 @@ TEST(Multiscale, TakesTheRocksOfTheGroupsOfItsMesh)
   refused("rock,Flat joint/Modulus [GPa]\nseam,20\n", "bad.csv:1: ");
   refused("group,group\nleft_column,right_column\n", "bad.csv:1: the column \"group\" is there twice");
   refused("group,Specimen/Width [mm]\nleft_column,20\n", "Specimen/Width is one for all rocks of a sample");
+  folder.write("half.csv", "mineral,share [%],size [mm]\nquartz,50,4\n");
+  refused("group,Minerals/Table\nleft_column,strong.csv\nright_column,half.csv\n",
+          "half.csv: the shares add up to 50 %");
   refused("group,Flat joint/Segments\nleft_column,3\nleft_column,4\n", "each row needs a group of its own; row 2 has");
 }
 

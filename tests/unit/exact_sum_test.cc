@@ -1,4 +1,4 @@
-#include "base/exact_sum.h"
+#include "dem/storage/exact_sum.h"
 
 #include <gtest/gtest.h>
 

@@ -712,6 +712,34 @@ TEST(Input, AMisspelledChoiceIsToldTheNearest)
   EXPECT_TRUE(error_of_entry("Tests", "List = direct_tension, brasilian").ends_with("; did you mean \"brazilian\"?"));
 }
 
+TEST(Input, AMistakeInATableOfMineralsIsThatOfItsVariant)
+{
+  const TemporaryFolder folder;
+  folder.write("good.csv", "mineral,share [%],size [mm]\nquartz,60,5\nmica,40,4\n");
+  folder.write("bad.csv", "mineral,share [%],size [mm]\nquartz,60,5\nmica,30,4\n");
+  folder.write("pair.csv", "mineral_1,mineral_2,tensile_strength_ratio\nmica,pyrite,0.5\n");
+  folder.write("plan.csv", "Minerals/Table\ngood.csv\nbad.csv\n");
+  const std::string table = "subsection Minerals\n  set Table = good.csv\nend\n";
+  const auto error_of_variants = [&](const std::string& variants) {
+    const auto file = folder.write("a.prm", table + "subsection Variants\n" + variants + "end\n");
+    try
+      {
+        read_input(file);
+      }
+    catch (const InputError& error)
+      {
+        return std::string(error.what()).substr(folder.path().string().size() + 1);
+      }
+    return std::string();
+  };
+  const std::string shares = ": the shares add up to 90 %; they must be 100 % together";
+  EXPECT_EQ(error_of_variants("  set Entry = Minerals/Table\n  set Values = good.csv; bad.csv\n"),
+            "a.prm:6: Minerals/Table = bad.csv" + shares);
+  EXPECT_EQ(error_of_variants("  set Table = plan.csv\n"), "a.prm:5: Minerals/Table = bad.csv" + shares);
+  EXPECT_EQ(error_of_variants("  set Entry = Minerals/Boundaries\n  set Values = none; pair.csv\n"),
+            "a.prm:6: Minerals/Boundaries = pair.csv: \"pyrite\" is not in the table of minerals");
+}
+
 TEST(Input, AVariantThatSetsAnEntryOfAnotherJointLawIsRefusedByName)
 {
   const auto varied = [](const std::string& values, const std::string& more = "") {

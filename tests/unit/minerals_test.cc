@@ -1,5 +1,6 @@
 #include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
+#include "dem/lab/mineral_gauge.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/minerals/minerals.h"
 #include "dem/rock/rock.h"
@@ -377,6 +378,66 @@ TEST(Minerals, ThatDoNotFitAreRefused)
   EXPECT_NE(refusal(wanted).find("must be at most"), std::string::npos) << refusal(wanted);
 }
 
+/// The same rock in a homogeneous deformation u = G x, with a rotation.
+template <int dim>
+void expect_strain_in_each_mineral(RockParameters rock)
+{
+  rock.specimen.dimension = dim;
+  Specimen<dim> specimen = make_rock<dim>(rock, 1);
+  const std::vector<bool> all(specimen.grains.size(), true);
+  const Components<dim> undeformed = specimen.grains.position;
+  const MineralGauge<dim> gauge(specimen, undeformed, all);
+  Tensor<dim> gradient;
+  for (int a = 0; a < dim; ++a)
+    for (int b = 0; b < dim; ++b)
+      gradient(a, b) = 1e-3 * (1.0 + a - 0.7 * b * b);
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    set<dim>(specimen.grains.position, i, at<dim>(undeformed, i) + gradient * at<dim>(undeformed, i));
+  const auto strains = gauge.strains(specimen);
+  std::size_t c = 0;
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b, ++c)
+      for (std::size_t k = 0; k < specimen.minerals.size(); ++k)
+        EXPECT_NEAR(strains[c][k], b < dim ? 0.5 * (gradient(a, b) + gradient(b, a)) : 0.0, 1e-14) << k; // of 1e-3
+}
+
+TEST(Minerals, AreStrainedAsTheSpecimenByAHomogeneousDeformation)
+{
+  RockParameters rock = plate(granite());
+  expect_strain_in_each_mineral<2>(rock);
+  rock.specimen.width = rock.specimen.height = 8 * milli;
+  rock.specimen.minimum_radius = 0.4 * milli;
+  expect_strain_in_each_mineral<3>(rock);
+}
+
+// Layers of 5 mm: those of one mineral are strained by ε along the axis, those of the other one are rigid. The strain of the plate
+// is ε times the share of the first. A pair of grains across the side of a layer has a part of ε; with grains of 0.8 mm such
+// pairs are some 0.8 / 5 of all, and half of each counts for either mineral. A least-squares fit through all grains of a
+// mineral would find the strain of the plate in both.
+TEST(Minerals, AreEachStrainedByTheirOwnDeformation)
+{
+  Specimen<2> specimen = make_rock<2>(plate(granite()), 1);
+  const double layer = 5 * milli, strain = 1e-3;
+  specimen.minerals.resize(2);
+  const Components<2> undeformed = specimen.grains.position;
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    {
+      const double y = undeformed[1][i];
+      const double n_below = std::floor(y / layer);
+      const bool is_strained = std::fmod(n_below, 2.0) == 1.0;
+      specimen.mineral[i] = is_strained;
+      specimen.grains.position[1][i] +=
+        strain * (layer * std::floor(0.5 * n_below) + (is_strained ? y - n_below * layer : 0.0));
+    }
+  const auto yy =
+    MineralGauge<2>(specimen, undeformed, std::vector<bool>(specimen.grains.size(), true)).strains(specimen)[3];
+  const double of_pairs_across = 0.5 * 0.8 * milli / layer * strain;
+  EXPECT_NEAR(yy[0], 0.0, of_pairs_across);
+  EXPECT_NEAR(yy[1], strain, of_pairs_across);
+  const auto shares = shares_of_minerals(specimen);
+  EXPECT_NEAR(shares[0].share * yy[0] + shares[1].share * yy[1], shares[1].share * strain, 0.02 * strain);
+}
+
 // The cracks are all in some mineral or between two; the means of the minerals add up to that of all grains.
 TEST(Minerals, ShareCracksAndStress)
 {
@@ -411,6 +472,11 @@ TEST(Minerals, ShareCracksAndStress)
       volume += std::pow(grains[i].radius, 2);
     }
   EXPECT_NEAR(of_minerals, of_grains / volume, 1e-10 * std::abs(of_minerals));
+  // Their strains add up to that between the platens but for the pores along these.
+  double strain = 0.0;
+  for (std::size_t k = 0; k < means.size(); ++k)
+    strain += outcome.record.minerals[k].share * means[k].strain[3];
+  EXPECT_NEAR(strain, snapshot.axial_strain, 0.05 * std::abs(snapshot.axial_strain));
   EXPECT_LT(of_minerals, -1e6);
 }
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/exact_sum.h"
+#include "dem/storage/exact_sum.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/specimen/specimen.h"
 
