@@ -989,6 +989,20 @@ TEST_F(Report, NamesThePackageWithoutWhichThereIsNoFilm)
   EXPECT_FALSE(fs::exists(folder.path() / "curve/film.webp"));
 }
 
+// Both sides end at one height, and so does what the last figure of each shows, but for its padding of 0.6 rem = 9.6 px and
+// its border: no field below the specimens or the curves is blank.
+TEST_F(Report, LevelsBothSidesOfItsFirstScreen)
+{
+  const std::string sides =
+    "addEventListener('load', () => { const below = side => side.lastElementChild.getBoundingClientRect().bottom;"
+    "const ends = [...document.querySelector('.lead').children].map(side => { const last = side.lastElementChild;"
+    "return [below(side), last.matches('figure') ? below(side) - below(last) : 0]; });"
+    "document.title = Math.abs(ends[0][0] - ends[1][0]) < 1 && ends.every(([, blank]) => blank < 12) ? 'level' : "
+    "JSON.stringify(ends); })";
+  folder.write("probe.html", with_script(content(folder.path() / "out/report.html"), sides));
+  EXPECT_EQ(title_of(Browser::show(folder.path() / "probe.html", "--window-size=1280,1700 --dump-dom")), "level");
+}
+
 TEST_F(Report, ShowsItsPicturesWithoutItsScript)
 {
   // The page's own script is taken out; another one counts the pictures that are seen.
