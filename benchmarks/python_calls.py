@@ -7,6 +7,7 @@
 INSTRUCTIONS: avx2 or avx512, of the processor; the figures are in benchmarks/results/python-INSTRUCTIONS.json.
 
 BUILD: a build folder with FELDSPAR_BENCHMARKS=ON and FELDSPAR_PYTHON=ON. Least processor times over several rounds; half a minute.
+The load average stands beside the figures: other work takes caches and clock rate.
 """
 
 import datetime
@@ -69,7 +70,8 @@ def table(result):
         cpp = result["cpp"].get(name)
         scale, unit = (1e6, "µs") if python < 1e-4 else (1e3, "ms")
         lines.append(f"| {name} | {'–' if cpp is None else f'{scale * cpp:.2f} {unit}'} | {scale * python:.2f} {unit} |")
-    lines += ["", f"{result['processor']}, one core, {result['date']}, Feldspar {result['feldspar_version']}."]
+    load = f", load average {result['load_average']}" if "load_average" in result else ""
+    lines += ["", f"{result['processor']}, one core, {result['date']}, Feldspar {result['feldspar_version']}{load}."]
     return "\n".join(lines) + "\n"
 
 
@@ -88,6 +90,7 @@ def main():
         "date": datetime.date.today().isoformat(),
         "cpp": json.loads(subprocess.run([program], check=True, stdout=subprocess.PIPE, text=True).stdout),
         "python": from_python(),
+        "load_average": round(os.getloadavg()[0], 1),
     }
     readme_table.keep_and_show("python", compare.vector_instructions(build), table, result)
 

@@ -11,6 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 tests=("$@")
 ((${#tests[@]})) || tests=(bodies_test commands_test.Commands materials_test pages_test.Pages.test_{python,material})
+[[ -x build/release/app/feldspar ]] || { echo "build/release/app/feldspar is missing: cmake --build --preset release" >&2; exit 1; }
 cmake --preset asan -B build/asan-python -DFELDSPAR_PYTHON=ON -DFELDSPAR_FUZZ=OFF -DBUILD_TESTING=OFF -DCMAKE_UNITY_BUILD=ON \
   -DCMAKE_SHARED_LINKER_FLAGS=-shared-libasan -DCMAKE_MODULE_LINKER_FLAGS=-shared-libasan >/dev/null
 cmake --build build/asan-python --parallel "$(nproc)" --target feldspar_python

@@ -5,17 +5,21 @@
 #include "base/append.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
+#include "base/text.h"
 #include "base/whole_file.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/report.h"
 #include "report/sections/comparison.h"
 #include "report/sections/test_tables.h"
+#include "report/sections/verdict.h"
 #include "results/fits/strength_data.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/csv_tables.h"
 #include "results/folder/field_output.h"
 #include "results/folder/result_folder.h"
 #include "results/folder/sample_field_output.h"
+
+#include <fmt/format.h>
 
 #include <utility>
 
@@ -107,7 +111,10 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
 std::string describe_tests(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
                            const RunEnvelopes& envelopes, const bool beside_flaws)
 {
-  std::string text = as_text(compare(tests, reference, {}, beside_flaws), reference) + "\n";
+  const std::vector<ComparisonRow> rows = compare(tests, reference, {}, beside_flaws);
+  std::string text = as_text(rows, reference) + "\n";
+  if (const std::string sentence = verdict_sentence(rows); !sentence.empty())
+    text += fmt::format("{}\n\n", fmt::join(in_lines(sentence, 80), "\n"));
   if (const Table stages = stage_table(tests); !stages.rows.empty())
     text += as_text(stages) + "\n";
   if (const auto found = envelopes.find(tests.empty() ? "" : tests.front().variant);

@@ -59,7 +59,10 @@ std::vector<std::size_t> columns_with_contents(const Table& table)
 std::string class_of(const std::string& cell)
 {
   constexpr std::size_t longest_figure = 40; // in bytes: "1234.5 ± 12.3 (−10.1 %)"
-  std::string name = cell.starts_with("✗") ? "bad" : cell.starts_with("✓") ? "good" : "";
+  std::string name = cell.starts_with("✗")   ? "bad"
+                     : cell.starts_with("✓") ? "good"
+                     : cell.starts_with("?") ? "not-decided"
+                                             : "";
   if (cell.size() > longest_figure)
     name += name.empty() ? "words" : " words";
   return name;
@@ -177,17 +180,20 @@ private:
 
 data describe(const Tile& tile)
 {
-  const std::optional<bool>& good = tile.in_range;
+  const bool good = tile.mark == TileMark::good, bad = tile.mark == TileMark::bad;
+  const bool not_decided = tile.mark == TileMark::not_decided;
   object result{{"property", tile.property},
                 {"value", tile.value},
                 {"notes", unless_empty(tile.notes)},
                 {"n", fmt::format("{}", tile.n)},
-                {"class", unless_empty(!good   ? ""
-                                       : *good ? "good"
-                                               : "bad")},
-                {"mark", unless_empty(!good   ? ""
-                                      : *good ? "✓"
-                                              : "✗")},
+                {"class", unless_empty(good          ? "good"
+                                       : bad         ? "bad"
+                                       : not_decided ? "not-decided"
+                                                     : "")},
+                {"mark", unless_empty(good          ? "✓"
+                                      : bad         ? "✗"
+                                      : not_decided ? "?"
+                                                    : "")},
                 {"has_bar", tile.low && tile.high}};
   if (!tile.low || !tile.high)
     return result;

@@ -18,6 +18,15 @@ struct PagePicture
   std::string problem;
 };
 
+/// Judgement of a tile, by which it is marked and coloured.
+enum class TileMark
+{
+  none,
+  good,
+  bad,
+  not_decided
+};
+
 /// A property as a tile, its mean and deviation on a bar with the range of the experiments.
 struct Tile
 {
@@ -29,7 +38,7 @@ struct Tile
   double deviation = 0.0;
   std::optional<double> low = {}; ///< of the range; none without an experiment
   std::optional<double> high = {};
-  std::optional<bool> in_range = {};
+  TileMark mark = TileMark::none;
 };
 
 /// A piece of a section; what is empty is left out.

@@ -303,7 +303,45 @@
       }
     }, {rootMargin: `${reach}px`}).observe(frame);
   }
-  dark.addEventListener("change", () => drawn.forEach(anew => anew()));
+  // Tiles stand below the left figure of the first screen where that levels both sides. The curves of the lower side, up to
+  // twice as high, and the frame of its last figure take what is left.
+  const leads = [...document.querySelectorAll(".lead")].map(lead => ({
+    lead,
+    sides: [lead.querySelector(".beside"), lead.firstElementChild],
+    tiles: lead.nextElementSibling?.matches(".tiles") ? lead.nextElementSibling : null,
+  }));
+  const level = () => {
+    for (const {lead, sides, tiles} of leads) {
+      const curves = sides.map(side => [...side.querySelectorAll(".specimens .chart, figure:last-child .chart")].at(-1));
+      curves.forEach(one => one?.style.removeProperty("height"));
+      if (tiles)
+        lead.after(tiles);
+      if (getComputedStyle(lead).display !== "grid" || !sides.every(side => side.lastElementChild))
+        continue;
+      const missing = () => {
+        const [left, right] = sides.map(side => side.lastElementChild.getBoundingClientRect().bottom);
+        return right - left;
+      };
+      lead.style.alignItems = "start";
+      const before = Math.abs(missing());
+      if (tiles) {
+        sides[0].append(tiles);
+        if (Math.abs(missing()) > before)
+          lead.after(tiles);
+      }
+      const rest = missing();
+      const growing = curves[rest > 0 ? 0 : 1];
+      if (growing && !(rest > 0 && sides[0].contains(tiles)))
+        growing.style.height = `${growing.clientHeight + Math.min(Math.abs(rest), growing.clientHeight)}px`;
+      lead.style.removeProperty("align-items");
+    }
+  };
+  level();
+  addEventListener("resize", level);
+  dark.addEventListener("change", () => {
+    drawn.forEach(anew => anew());
+    level();
+  });
   // Specimens that came without a picture get one for paper.
   addEventListener("beforeprint", () => {
     for (const [frame, data] of ofSpecimens())

@@ -84,8 +84,10 @@ Tile tile_of(const CalibrationRecord::TargetRow& row, const double tolerance)
             .deviation = size * mean.half_width().value_or(0.0),
             .low = row.target - tolerance * size,
             .high = row.target + tolerance * size};
-  if (row.verdict != TargetVerdict::not_decided)
-    tile.in_range = row.verdict == TargetVerdict::reached;
+  if (row.verdict == TargetVerdict::not_decided)
+    tile.mark = n > 0 ? TileMark::not_decided : TileMark::none;
+  else
+    tile.mark = row.verdict == TargetVerdict::reached ? TileMark::good : TileMark::bad;
   return tile;
 }
 

@@ -196,6 +196,21 @@ std::optional<bool> ComparisonRow::in_range() const
   return ours->mean >= *experiment->low && ours->mean <= *experiment->high;
 }
 
+std::string name(const RangeVerdict verdict)
+{
+  return verdict == RangeVerdict::within ? "within" : verdict == RangeVerdict::outside ? "outside" : "not decided";
+}
+
+std::optional<RangeVerdict> ComparisonRow::against_range() const
+{
+  if (!in_range())
+    return std::nullopt;
+  if (*in_range())
+    return RangeVerdict::within;
+  const double distance = std::max(*experiment->low - ours->mean, ours->mean - *experiment->high);
+  return ours->confidence_95 && *ours->confidence_95 < distance ? RangeVerdict::outside : RangeVerdict::not_decided;
+}
+
 std::optional<bool> ComparisonRow::surely_in_range() const
 {
   if (!in_range() || !ours->confidence_95)

@@ -11,6 +11,17 @@
 
 namespace feldspar
 {
+/// Verdict on a mean beside the range of the experiment. It rests on the 95 % interval of the mean by Student's t.
+enum class RangeVerdict
+{
+  within,     ///< the mean lies in the range
+  outside,    ///< neither the mean nor any part of its interval lies there
+  not_decided ///< the mean lies outside; its interval reaches into the range, or one specimen has none
+};
+
+/// Name in tables: within, outside, not decided.
+std::string name(RangeVerdict verdict);
+
 /// One property of the rock: ours beside the references, all in `unit`.
 struct ComparisonRow
 {
@@ -27,7 +38,9 @@ struct ComparisonRow
   std::optional<double> deviation() const;
   /// Returns whether our mean lies in the range of the experiment; none without either.
   std::optional<bool> in_range() const;
-  /// Returns whether all of the 95 % interval of our mean lies in that range; none without either.
+  /// The verdict on our mean; none without either.
+  std::optional<RangeVerdict> against_range() const;
+  /// Returns whether all of the 95 % interval of our mean lies in that range; none without either or from one specimen.
   std::optional<bool> surely_in_range() const;
 };
 

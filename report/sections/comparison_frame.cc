@@ -44,6 +44,7 @@ struct FrameFigure
   std::optional<double> range_high = std::nullopt;
   std::optional<double> deviation = std::nullopt;
   std::optional<bool> in_range = std::nullopt;
+  std::optional<RangeVerdict> verdict = std::nullopt;
 };
 
 FrameFigure figure_of(const Statistics& ours)
@@ -81,7 +82,8 @@ std::vector<std::string> row_of(const Beginning& source, const std::string& prop
   std::vector<std::string> row = source;
   append(row, {property, is_power ? "" : unit, scaled(figure.mean), scaled(figure.standard_deviation),
                figure.n ? fmt::format("{}", *figure.n) : "", scaled(figure.mean_95_low), scaled(figure.mean_95_high),
-               scaled(figure.range_low), scaled(figure.range_high), cell(figure.deviation), cell(figure.in_range)});
+               scaled(figure.range_low), scaled(figure.range_high), cell(figure.deviation), cell(figure.in_range),
+               figure.verdict ? name(*figure.verdict) : ""});
   return row;
 }
 
@@ -105,6 +107,7 @@ void add_series(DataFrame& frame, const Series& series, const std::vector<Compar
         FrameFigure figure = figure_of(*row.ours);
         figure.deviation = row.deviation();
         figure.in_range = row.in_range();
+        figure.verdict = row.against_range();
         frame.rows.push_back(row_of(source, row.property, row.unit, figure));
       }
   if (const auto cost = cost_of(series))
@@ -163,7 +166,7 @@ DataFrame comparison_frame(const Findings& findings)
   for (const VariedColumn& column : varied)
     frame.header.push_back(column.heading());
   append(frame.header, {"property", "unit", "mean", "standard_deviation", "n", "mean_95_low", "mean_95_high",
-                        "range_low", "range_high", "deviation_from_experiment", "in_experiment_range"});
+                        "range_low", "range_high", "deviation_from_experiment", "in_experiment_range", "verdict"});
 
   const auto beginning = [&](const std::string& source, const std::string& kind,
                              const std::vector<VariantSetting>& of_source) {

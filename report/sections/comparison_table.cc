@@ -23,16 +23,26 @@ namespace
 {
 using namespace text;
 
+const std::string note_on_ranges =
+  "Range: does our mean lie in that of the experiments? Not decided: it lies outside, but "
+  "its 95 % interval reaches into the range, or there is one specimen.";
+
 std::string against_experiment(const ComparisonRow& row)
 {
   if (!row.ours || !row.experiment)
     return none;
   const std::string deviation =
     row.deviation() ? signed_percent(*row.deviation()) : ""; // none where only a range is known
-  if (!row.in_range())
+  const auto found = row.against_range();
+  if (!found)
     return "no range given" + (deviation.empty() ? "" : ", " + deviation);
-  return (*row.in_range() ? "✓ " : "✗ ") + (deviation.empty() ? "" : deviation + ", ") +
-         (*row.in_range() ? "in range" : "out of range");
+  return (found == RangeVerdict::within    ? "✓ "
+          : found == RangeVerdict::outside ? "✗ "
+                                           : "? ") +
+         (deviation.empty() ? "" : deviation + ", ") +
+         (found == RangeVerdict::within    ? "in range"
+          : found == RangeVerdict::outside ? "out of range"
+                                           : "not decided");
 }
 
 /// A line of the comparison: heading, model, experiment, model against experiment and so on of one series; of several
@@ -150,8 +160,8 @@ Table comparison_of_many(const Findings& findings)
 {
   const std::vector<std::size_t> compared = compared_series(findings);
   Table table{"comparison",
-              "Model and rock. ± is the standard deviation over the seeds" + deviation_note(findings, compared) +
-                ". Range: does our mean lie in that of the experiments?",
+              "Model and rock. ± is the standard deviation over the seeds" + deviation_note(findings, compared) + ". " +
+                note_on_ranges,
               {"series"},
               {},
               comparison_frame(findings)};
@@ -209,8 +219,8 @@ Table comparison_table(const Findings& findings)
   Table table{
     "comparison",
     "Model and rock. ± is the standard deviation over the seeds" + deviation_note(findings, compared) +
-      ". The interval is that of the mean, 95 %, by Student's t, from three specimens on and where it does not reach 0. "
-      "Range: does our mean lie in that of the experiments?",
+      ". The interval is that of the mean, 95 %, by Student's t, from three specimens on and where it does not reach 0. " +
+      note_on_ranges,
     {"property"},
     {},
     comparison_frame(findings)};

@@ -17,6 +17,9 @@ struct Verdict
   std::vector<std::string> points; ///< properties without a result
 };
 
+/// Sentence on the properties that both have; empty where there is none.
+std::string verdict_sentence(const std::vector<ComparisonRow>& rows);
+
 /// `reason_for_no_reference`: why there is none although there should be one.
 Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference,
                 const std::string& reason_for_no_reference);

@@ -29,21 +29,22 @@ std::string material_at_points(const Provenance& made_by)
 }
 
 /// ✗ 2: tensile strength, Young's modulus
-std::string count_and_names(const std::vector<std::string>& names)
+std::string count_and_names(const std::vector<std::string>& names, const std::string& mark = "✗")
 {
-  return names.empty() ? "✓ none" : fmt::format("✗ {}: {}", names.size(), fmt::join(names, ", "));
+  return names.empty() ? "✓ none" : fmt::format("{} {}: {}", mark, names.size(), fmt::join(names, ", "));
 }
 
 /// The measures of the blocks of few series, a row for each series; the table is to be opened.
 std::vector<PageBlock> verdict_of_many(const Findings& findings)
 {
-  Table table{"verdicts",
-              "Every series: tests made and wanted, properties in and out of the range of experiments, measures out of "
-              "their bounds",
-              {"series", "made", "of tests", "properties in range", "properties out of range", "measures out of bounds",
-               "could not be read"},
-              {}};
-  std::size_t n_compared = 0, n_in_every_range = 0, n_warned = 0, n_models = 0;
+  Table table{
+    "verdicts",
+    "Every series: tests made and wanted, properties in and out of the range of experiments or not decided, measures out of "
+    "their bounds",
+    {"series", "made", "of tests", "properties in range", "properties out of range", "properties not decided",
+     "measures out of bounds", "could not be read"},
+    {}};
+  std::size_t n_compared = 0, n_in_every_range = 0, n_not_decided = 0, n_warned = 0, n_models = 0;
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       const Series& series = findings.all[n];
@@ -51,17 +52,18 @@ std::vector<PageBlock> verdict_of_many(const Findings& findings)
         continue;
       ++n_models;
       std::size_t n_in = 0;
-      std::vector<std::string> out;
+      std::vector<std::string> out, open;
       for (const auto& row : findings.comparisons[n])
-        if (const auto in_range = row.in_range())
+        if (const auto found = row.against_range())
           {
-            n_in += *in_range;
-            if (!*in_range)
-              out.push_back(row.property);
+            n_in += found == RangeVerdict::within;
+            if (found != RangeVerdict::within)
+              (found == RangeVerdict::outside ? out : open).push_back(row.property);
           }
-      const bool is_compared = n_in > 0 || !out.empty();
+      const bool is_compared = n_in > 0 || !out.empty() || !open.empty();
       n_compared += is_compared;
-      n_in_every_range += is_compared && out.empty();
+      n_in_every_range += is_compared && out.empty() && open.empty();
+      n_not_decided += out.empty() && !open.empty();
       std::vector<std::string> measures_out;
       for (const auto& check : trust_checks(series))
         if (check.n_out > 0)
@@ -71,13 +73,15 @@ std::vector<PageBlock> verdict_of_many(const Findings& findings)
         std::ranges::count_if(series.tests, [](const FinishedTest& test) { return test.record.failure.empty(); });
       table.rows.push_back({series.label, fmt::format("{}", n_made), fmt::format("{}", series.tests.size()),
                             is_compared ? fmt::format("{}", n_in) : text::none,
-                            is_compared ? count_and_names(out) : text::none, count_and_names(measures_out),
+                            is_compared ? count_and_names(out) : text::none,
+                            is_compared ? count_and_names(open, "?") : text::none, count_and_names(measures_out),
                             fmt::format("{}", fmt::join(series.problems, "; "))});
     }
   PageBlock block;
   block.headline =
     n_compared > 0
-      ? fmt::format("{} of {} series lie in every range that experiments give.", n_in_every_range, n_compared)
+      ? fmt::format("{} of {} series lie in every range that experiments give{}.", n_in_every_range, n_compared,
+                    n_not_decided > 0 ? fmt::format("; {} are not decided by their specimens", n_not_decided) : "")
       : "Nothing to compare with: " +
           (findings.reference_problem.empty()
              ? std::string("no property was both tested here and given with a range for the rock")

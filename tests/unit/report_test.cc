@@ -14,6 +14,9 @@
 #include "report/pictures/maps/specimen_data.h"
 #include "report/report.h"
 #include "report/sections/comparison.h"
+#include "report/sections/comparison_frame.h"
+#include "report/sections/comparison_table.h"
+#include "report/sections/findings.h"
 #include "report/sections/provenance.h"
 #include "report/sections/sections.h"
 #include "report/sections/study_text.h"
@@ -48,6 +51,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace feldspar::tests
@@ -448,8 +452,14 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
      "range and deviates by",
      "uniaxial compressive strength: 126.0 ± 6.0 MPa, n = 3; experiment 125.0", "+0.8 %",
      "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range", "Young's modulus"});
-  holds(said(granite(127.0, 130.0), ""), {"No. Uniaxial compressive strength is outside the measured range",
-                                          "experiment 125.0 (127.0 to 130.0) MPa", "reaches into the range"});
+  holds(
+    said(granite(127.0, 130.0), ""),
+    {"Not decided by 3 specimens. Uniaxial compressive strength is outside the measured range, but its 95 % interval "
+     "reaches into it.",
+     "experiment 125.0 (127.0 to 130.0) MPa, +0.8 %; not decided by 3 specimens: the 95 % interval of the mean, 111.1 "
+     "to 140.9, reaches into the range"});
+  holds(said(granite(141.0, 150.0), ""),
+        {"No. Uniaxial compressive strength is outside the measured range (3 specimens). Young's modulus is given"});
   // All of the interval inside, or all of it outside: no such remark.
   EXPECT_EQ(said(granite(1.0, 500.0), "").find("reaches"), std::string::npos);
   EXPECT_EQ(said(granite(300.0, 500.0), "").find("reaches"), std::string::npos);
@@ -463,8 +473,85 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   holds(said(granite(1.0, 500.0), ""), {": 120.0 and 132.0 MPa, n = 2;", "two specimens are too few to be sure"});
   const std::string on_terminal = as_text(compare(tests, std::nullopt), std::nullopt);
   EXPECT_NE(on_terminal.find("  n = 2: 120.0 and 132.0\n"), std::string::npos) << on_terminal;
+  // The mean of 120 and 132 MPa is 126 ± 12.706·6 = 76 MPa.
+  holds(said(granite(203.0, 300.0), ""),
+        {"No. Uniaxial compressive strength is outside the measured range (2 specimens)."});
+  holds(said(granite(202.0, 300.0), ""),
+        {"Not decided by 2 specimens.",
+         "not decided by 2 specimens: the 95 % interval of the mean reaches into the range"});
   tests.pop_back();
   holds(said(granite(1.0, 500.0), ""), {"120.0 MPa, n = 1;", "one specimen is too few to be sure"});
+  holds(
+    said(granite(300.0, 500.0), ""),
+    {"Not decided by one specimen. Uniaxial compressive strength is outside the measured range, but one specimen has "
+     "no 95 % interval.",
+     "not decided by one specimen, which has no 95 % interval"});
+}
+
+/// A property in MPa, measured to be 100 (90 to 110), or without a range.
+ComparisonRow property(const std::string& name, const std::vector<double>& values, const bool has_range = true)
+{
+  ReferenceValue measured{100.0, std::nullopt, std::nullopt};
+  if (has_range)
+    std::tie(measured.low, measured.high) = std::pair(90.0, 110.0);
+  return {name, "MPa", 1, statistics(values), std::nullopt, measured, name};
+}
+
+// Three values x - 2, x and x + 2 have a standard deviation of 2, so that Student's t of two degrees of freedom, 4.303, gives
+// an interval of x ± 4.303·2/sqrt(3) = x ± 4.97.
+TEST(Verdict, IsOneForSentenceTileAndTables)
+{
+  const auto around = [](const double mean) { return std::vector{mean - 2.0, mean, mean + 2.0}; };
+  const ComparisonRow within = property("strength a", around(109.0)), open = property("strength b", around(114.9)),
+                      outside = property("strength c", around(115.0)), below = property("strength d", around(85.1));
+  EXPECT_EQ(within.against_range(), RangeVerdict::within);
+  EXPECT_EQ(open.against_range(), RangeVerdict::not_decided);
+  EXPECT_EQ(outside.against_range(), RangeVerdict::outside);
+  EXPECT_EQ(below.against_range(), RangeVerdict::not_decided);
+
+  EXPECT_EQ(
+    verdict_sentence({within, open, outside}),
+    "No. Strength c is outside the measured range (3 specimens); strength b is not decided; 1 of 3 properties lies "
+    "within.");
+  EXPECT_EQ(verdict_sentence({within, open, below}),
+            "Not decided by 3 specimens. Strength b and strength d are outside the measured ranges, but their 95 % "
+            "intervals reach into them; 1 of 3 properties lies within.");
+  EXPECT_EQ(verdict_sentence({within}), "Yes. Strength a lies within the measured range (3 specimens).");
+
+  const std::vector<Tile> tiles = verdict({within, open, outside}, std::nullopt, "").tiles;
+  ASSERT_EQ(tiles.size(), 3u);
+  EXPECT_EQ(tiles[0].mark, TileMark::good);
+  EXPECT_EQ(tiles[1].mark, TileMark::not_decided);
+  EXPECT_EQ(tiles[2].mark, TileMark::bad);
+
+  const std::vector<Series> all{{"model", SeriesKind::specimens, {}, {compression(1)}, {}}};
+  const std::optional<Reference> reference = granite(90.0, 110.0);
+  const std::string no_problem;
+  const Findings findings{all, all, reference, no_problem, true, {{within, open, outside}}, {}};
+  const Table table = comparison_table(findings);
+  std::string cells;
+  for (const auto& row : table.rows)
+    cells += fmt::format("{}\n", fmt::join(row, " | "));
+  for (const char* cell : {"✓ +9.0 %, in range", "? +14.9 %, not decided", "✗ +15.0 %, out of range"})
+    EXPECT_NE(cells.find(cell), std::string::npos) << cell << " in\n" << cells;
+  const DataFrame frame = comparison_frame(findings);
+  ASSERT_EQ(frame.header.back(), "verdict");
+  std::vector<std::string> verdicts;
+  for (const auto& row : frame.rows)
+    if (row.front() == "model" && row.back() != "")
+      verdicts.push_back(row.back());
+  EXPECT_EQ(verdicts, (std::vector<std::string>{"within", "not decided", "outside"}));
+}
+
+// 72.9 and 137.1 beside 100 are 27.1 % too low and 37.1 % too high.
+TEST(Verdict, NamesThePropertyThatDeviatesMost)
+{
+  const ComparisonRow modulus = property("Young's modulus, initial", {72.9}, false),
+                      ratio = property("Poisson's ratio, secant at 50 % of peak", {137.1}, false);
+  EXPECT_EQ(verdict_sentence({modulus, ratio}),
+            "Young's modulus and Poisson's ratio are given without a range and deviate "
+            "by up to +37.1 % (Poisson's ratio).");
+  EXPECT_EQ(verdict_sentence({modulus}), "Young's modulus is given without a range and deviates by −27.1 %.");
 }
 
 TEST(Verdict, OfADiscThatBearsMoreAfterItsFirstFallSaysSo)
@@ -1322,11 +1409,11 @@ TEST(CalibrationSection, BeginsWithTheDecisionInWordsAndATileForEachTarget)
   ASSERT_EQ(tiles.size(), 2u);
   EXPECT_EQ(tiles[0].value, "163.0 MPa");
   EXPECT_EQ(tiles[0].n, 12u);
-  EXPECT_EQ(tiles[0].in_range, std::optional(true));
+  EXPECT_EQ(tiles[0].mark, TileMark::good);
   EXPECT_NEAR(tiles[0].low.value(), 161.5e6 * 0.97, 1.0);
   // Half of the 95 % interval: Student's t of eleven degrees of freedom is 2.201.
   EXPECT_NEAR(tiles[0].deviation, 2.201 * 1.234e6, 1e3);
-  EXPECT_FALSE(tiles[1].in_range) << "what is not decided is neither in nor out";
+  EXPECT_EQ(tiles[1].mark, TileMark::not_decided);
 }
 
 /// A run of variants of two entries: friction adds 50 MPa, the modulus nothing.
