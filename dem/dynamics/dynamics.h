@@ -158,6 +158,7 @@ private:
   Circumstances circumstances() const;
   double integrate();
   std::vector<Break> update_contacts(double dt, double farthest_way);
+  std::vector<std::vector<double>> works_of_applied_forces(double dt) const;
   std::vector<Break> agree(std::vector<Break> breaks, double dt);
   double largest_stiffness_ratio() const;
   void agree_on_copies();

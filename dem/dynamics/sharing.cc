@@ -115,72 +115,85 @@ void Dynamics<dim>::agree_on_copies()
   sweep_memory.moving = part.held();
 }
 
+/// Work of the forces from outside on each own grain over a step of dt [s], component by component [J].
+template <int dim>
+std::vector<std::vector<double>> Dynamics<dim>::works_of_applied_forces(const double step) const
+{
+  std::vector<std::vector<double>> works(dim);
+  for (int c = 0; c < dim; ++c)
+    for (std::size_t i = part.grains().first; i < part.grains().end && !applied_force[c].empty(); ++i)
+      if (applied_force[c][i] != 0.0)
+        works[std::size_t(c)].push_back(step * applied_force[c][i] * body.grains.velocity[c][i]);
+  return works;
+}
+
 /// Makes known to all what the contacts of a step of dt [s] gave: sums over walls, grips and forces from outside, in the order of
-/// the grains, and breaks.
+/// the grains, and breaks, of which it returns those that this process counts.
 template <int dim>
 std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double step)
 {
-  std::vector<PlainBreak> plain;
-  const auto is_smooth = [&](const Break& event) { return event.joint >= body.joints.size(); };
-  std::erase_if(
-    breaks, [&](const Break& event) { return !is_smooth(event) && !part.counts(body.joints.grain_1[event.joint]); });
-  for (const Break& event : breaks)
-    plain.push_back({is_smooth(event) ? 0 : body.joints.number[event.joint], event.segment, event.released_energy});
+  const auto add_works = [&](const auto& works) {
+    for (std::size_t c = 0; c < dim; ++c)
+      for (const double work : works[c])
+        ledger.boundary_work += work;
+  };
+  const auto note = [&](const auto& all) {
+    released.clear();
+    for (const auto& one : all)
+      released.push_back(one.released_energy);
+  };
+  if (!part.is_shared())
+    {
+      if (!applied_force[0].empty())
+        add_works(works_of_applied_forces(step));
+      note(breaks);
+      return breaks;
+    }
 
   // The sums, each a list of its terms.
-  const GrainRange own = part.grains();
-  std::vector<std::vector<double>> terms;
-  for (int c = 0; c < dim; ++c)
+  std::vector<std::vector<double>> terms = works_of_applied_forces(step);
+  for (std::size_t w = 0; w < wall_set.size(); ++w)
     {
-      auto& works = terms.emplace_back();
-      for (std::size_t i = own.first; i < own.end && !applied_force[c].empty(); ++i)
-        if (applied_force[c][i] != 0.0)
-          works.push_back(step * applied_force[c][i] * body.grains.velocity[c][i]);
+      terms.push_back(wall_set.pressures(w));
+      terms.push_back(wall_set.stiffnesses_in_touch(body, w));
     }
-  if (part.is_shared())
-    {
-      for (std::size_t w = 0; w < wall_set.size(); ++w)
-        {
-          terms.push_back(wall_set.pressures(w));
-          terms.push_back(wall_set.stiffnesses_in_touch(body, w));
-        }
-      for (std::size_t g = 0; g < grips.size(); ++g)
-        for (int c = 0; c < dim; ++c)
-          {
-            auto& forces = terms.emplace_back();
-            for (const std::uint32_t i : grips.members(g))
-              if (own.has(i))
-                forces.push_back(body.grains.force[c][i]);
-          }
-      terms.push_back({contact_made ? 1.0 : 0.0, double(plain.size())});
-      terms = part.gathered_lists(terms, term_counts);
+  for (std::size_t g = 0; g < grips.size(); ++g)
+    for (int c = 0; c < dim; ++c)
+      {
+        auto& forces = terms.emplace_back();
+        for (const std::uint32_t i : grips.members(g))
+          if (part.grains().has(i))
+            forces.push_back(body.grains.force[c][i]);
+      }
+  std::erase_if(breaks, [&](const Break& event) { return !part.counts(body.joints.grain_1[event.joint]); });
+  terms.push_back({contact_made ? 1.0 : 0.0, double(breaks.size())});
+  terms = part.gathered_lists(terms, term_counts);
 
-      auto next = terms.begin() + dim;
-      for (std::size_t w = 0; w < wall_set.size(); ++w, next += 2)
-        wall_set.set_sums(w, next[0], next[1]);
-      shared_grip_forces.assign(grips.size(), Vector<dim>::Zero());
-      for (Vector<dim>& force : shared_grip_forces)
-        for (int c = 0; c < dim; ++c, ++next)
-          for (const double term : *next)
-            force[c] += term;
-      double n_breaks = 0.0;
-      for (std::size_t k = 0; k < next->size(); k += 2)
-        {
-          contact_made = contact_made || (*next)[k] > 0.0;
-          n_breaks += (*next)[k + 1];
-        }
-      if (n_breaks > 0.0)
-        {
-          plain = part.gathered(plain);
-          std::ranges::sort(plain, {}, [](const PlainBreak& one) { return std::pair(one.joint, one.segment); });
-        }
+  add_works(terms);
+  auto next = terms.begin() + dim;
+  for (std::size_t w = 0; w < wall_set.size(); ++w, next += 2)
+    wall_set.set_sums(w, next[0], next[1]);
+  shared_grip_forces.assign(grips.size(), Vector<dim>::Zero());
+  for (Vector<dim>& force : shared_grip_forces)
+    for (int c = 0; c < dim; ++c, ++next)
+      for (const double term : *next)
+        force[c] += term;
+  double n_breaks_of_all = 0.0;
+  for (std::size_t k = 0; k < next->size(); k += 2)
+    {
+      contact_made = contact_made || (*next)[k] > 0.0;
+      n_breaks_of_all += (*next)[k + 1];
     }
-  for (int c = 0; c < dim; ++c)
-    for (const double work : terms[std::size_t(c)])
-      ledger.boundary_work += work;
-  released.clear();
-  for (const PlainBreak& one : plain)
-    released.push_back(one.released_energy);
+  std::vector<PlainBreak> plain;
+  if (n_breaks_of_all > 0.0)
+    {
+      plain.reserve(breaks.size());
+      for (const Break& event : breaks)
+        plain.push_back({body.joints.number[event.joint], event.segment, event.released_energy});
+      plain = part.gathered(plain);
+      std::ranges::sort(plain, {}, [](const PlainBreak& one) { return std::pair(one.joint, one.segment); });
+    }
+  note(plain);
   return breaks;
 }
 
@@ -287,6 +300,8 @@ template void Dynamics<2>::drop();
 template void Dynamics<3>::drop();
 template void Dynamics<2>::agree_on_copies();
 template void Dynamics<3>::agree_on_copies();
+template std::vector<std::vector<double>> Dynamics<2>::works_of_applied_forces(double) const;
+template std::vector<std::vector<double>> Dynamics<3>::works_of_applied_forces(double) const;
 template std::vector<Break> Dynamics<2>::agree(std::vector<Break>, double);
 template std::vector<Break> Dynamics<3>::agree(std::vector<Break>, double);
 template void Dynamics<2>::know_all_motions();

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""One body on two ranks beside two threads, and a model of more ranks.
+
+    python3 benchmarks/shared_body.py BUILD     # writes results/shared-body-INSTRUCTIONS.json and the tables of README.md
+    python3 benchmarks/shared_body.py           # prints them
+
+BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit; two processors that do nothing else, some minutes. Each is
+the median of five steps' means, run in turn.
+
+The model takes what was measured: time a joint and step of one thread, joints computed twice and copied grains a cut, both
+by the number of grains on a side of the cut. A rank of n grains has six cuts of n^(2/3) grains. Assumed: a message takes 2 µs and
+10 GB/s; a gather goes in log2(ranks) rounds and brings the terms of both platens, 16 bytes a grain of an end, to all.
+"""
+
+import json
+import math
+import os
+import statistics
+import subprocess
+import sys
+
+from on_ranks import ENVIRONMENT
+from readme_table import keep_and_show
+from record import compare, version_of
+
+BODIES = {"plane": ("14", "200"), "space": ("4", "40")}  # packings along an axis, steps
+WAYS = {"two threads": (1, 2), "two ranks": (2, 1), "one thread": (1, 1)}
+MESSAGE, BYTES_PER_SECOND, BYTES_OF_SPHERE, BYTES_HELD = 2e-6, 10e9, 72, 270
+
+
+def measured(build):
+    program = os.path.join(build, "benchmarks", "shared_body")
+    runs = {body: {way: [] for way in WAYS} for body in BODIES}
+    for _ in range(5):
+        for body, (bricks, steps) in BODIES.items():
+            for way, (ranks, threads) in WAYS.items():
+                command = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none", program, body, bricks, steps,
+                           str(threads)]
+                out = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT)
+                runs[body][way].append(json.loads(out.stdout))
+    result = {"feldspar_version": version_of(build), "flags": compare.flags(build), "processor": compare.processor()}
+    for body, of_body in runs.items():
+        works = {run["boundary_work_J"] for ways in of_body.values() for run in ways}
+        if len(works) != 1:
+            sys.exit(f"{body}: the bits differ: {works}")
+        result[body] = {way: sorted(ways, key=lambda run: run["step_s"])[2] for way, ways in of_body.items()}
+        result[body]["median_of_means_s"] = {way: statistics.median(run["step_s"] for run in ways) for way, ways in of_body.items()}
+    return result
+
+
+def model(space, grains, ranks):
+    """Seconds of a step, and its shares of joints computed twice, exchange and gather."""
+    one, two = space["one thread"], space["two ranks"]
+    of_joint = one["step_s"] / one["joints"]
+    side = one["grains"] ** (2 / 3)  # grains at the one cut between the two ranks
+    twice_a_cut = (two["joints_computed"] - two["joints"]) / 2 / side
+    copies_a_cut = two["bytes_exchanged"] / 2 / BYTES_OF_SPHERE / side
+    here = grains / ranks
+    cuts = 6 * here ** (2 / 3) if ranks > 1 else 0.0
+    joints = of_joint * here * one["joints"] / one["grains"]
+    twice = of_joint * cuts * twice_a_cut
+    exchange = 6 * MESSAGE + cuts * copies_a_cut * BYTES_OF_SPHERE / BYTES_PER_SECOND if ranks > 1 else 0.0
+    gather = math.log2(ranks) * MESSAGE + 2 * grains ** (2 / 3) * 16 / BYTES_PER_SECOND if ranks > 1 else 0.0
+    total = joints + twice + exchange + gather
+    return total, twice / total, exchange / total, gather / total
+
+
+def table(result):
+    lines = ["| body | joints | two threads | two ranks | ratio | computed twice | exchange | gather, with waiting |",
+             "|---|---|---|---|---|---|---|---|"]
+    for body in BODIES:
+        of_body = result[body]
+        threads, ranks = of_body["two threads"], of_body["two ranks"]
+        lines.append(
+            f"| {body} | {ranks['joints']:,} | {1e3 * threads['step_s']:.2f} ms | {1e3 * ranks['step_s']:.2f} ms | "
+            f"{ranks['step_s'] / threads['step_s']:.2f} | {100 * (ranks['joints_computed'] / ranks['joints'] - 1):.2f} % | "
+            f"{1e3 * ranks['exchange_s']:.2f} ms | {1e3 * ranks['gather_s']:.2f} ms |".replace(",", " "))
+    lines += ["", "| spheres | ranks | step | computed twice | exchange | gather | grains held by a rank |", "|---|---|---|---|---|---|---|"]
+    for grains, counts in ((1e6, (1, 16, 256)), (1e8, (64, 1024, 10000)), (1e9, (1024, 10000))):
+        for ranks in counts:
+            total, *shares = model(result["space"], grains, ranks)
+            lines.append(f"| 10^{round(math.log10(grains))} | {ranks} | {1e3 * total:.3g} ms | "
+                         + " | ".join(f"{100 * share:.0f} %" for share in shares) + f" | {BYTES_HELD * grains / 1e9:.3g} GB |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    if len(sys.argv) > 2:
+        sys.exit(__doc__)
+    build = sys.argv[1] if len(sys.argv) == 2 else None
+    keep_and_show("shared-body", "avx512" if build is None else compare.vector_instructions(build), table,
+                  measured(build) if build else None)
+
+
+if __name__ == "__main__":
+    main()
