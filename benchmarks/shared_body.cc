@@ -29,7 +29,10 @@ using Clock = std::chrono::steady_clock;
 constexpr double rate = -0.01;           // of the axial strain [1/s]; so slow that nothing breaks
 constexpr unsigned int first_steps = 20; // not timed: contacts are looked for, pages come to be
 
-double seconds_since(const Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(const Clock::time_point begin)
+{
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 /// Tells how long the partners are waited for.
 class TimedPartners : public ProcessesAsPartners

@@ -87,7 +87,8 @@ private:
       auto& own = those.messages[own_number];
       own.clear();
       for (unsigned int p = 0; p < number(); ++p)
-        own.emplace_back(sent.begin() + std::ptrdiff_t(first_sent[p]), sent.begin() + std::ptrdiff_t(first_sent[p + 1]));
+        own.emplace_back(sent.begin() + std::ptrdiff_t(first_sent[p]),
+                         sent.begin() + std::ptrdiff_t(first_sent[p + 1]));
       those.meeting.arrive_and_wait();
       for (unsigned int p = 0; p < number(); ++p)
         {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/storage/exact_sum.h"
 #include "base/input_error.h"
+#include "dem/storage/exact_sum.h"
 
 #include <cstddef>
 #include <vector>

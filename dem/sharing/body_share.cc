@@ -140,7 +140,7 @@ void BodyShare<dim>::bring(std::vector<double>& values) const
 
 template <int dim>
 std::vector<std::vector<double>> BodyShare<dim>::gathered_lists(const std::vector<std::vector<double>>& lists,
-                                                               std::vector<std::size_t>& counts) const
+                                                                std::vector<std::size_t>& counts) const
 {
   if (!is_shared())
     return lists;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dem/storage/exact_sum.h"
 #include "dem/sharing/partners.h"
 #include "dem/specimen/specimen.h"
+#include "dem/storage/exact_sum.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -45,8 +45,9 @@ TEST(SeveralRanks, ThatShareABodyHaveTheBytesOfOneProcessAlsoKilledAndResumedOnA
   expect_same_bytes(folder.path() / "1", folder.path() / "4");
 
   // Killed in compression, which is the longer test and comes first.
-  folder.write("kill", "\"$@\" &\nuntil [ -e 3/checkpoints/uniaxial_compression_seed_1.previous.h5 ]; do sleep 0.02; done\n"
-                       "kill -KILL $(pgrep -P $! | tail -n 1)\nwait $!\n");
+  folder.write("kill",
+               "\"$@\" &\nuntil [ -e 3/checkpoints/uniaxial_compression_seed_1.previous.h5 ]; do sleep 0.02; done\n"
+               "kill -KILL $(pgrep -P $! | tail -n 1)\nwait $!\n");
   const auto killed =
     run_feldspar(folder.path(), "lab granite.prm --output 3 --quiet --threads 1", "sh ./kill " + mpirun(3));
   EXPECT_NE(killed.exit_code, 0);

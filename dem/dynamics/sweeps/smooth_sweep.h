@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dem/storage/exact_sum.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/specimen/specimen.h"
+#include "dem/storage/exact_sum.h"
 
 #include <vector>
 
