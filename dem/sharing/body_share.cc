@@ -65,7 +65,7 @@ void BodyShare<dim>::agree_on_copies(std::vector<std::uint32_t> needed)
   const auto room = [&](const std::ptrdiff_t n_grains) {
     return n_grains > 0 ? std::size_t(n_grains) * per_grain + per_message : 0;
   };
-  // What each takes, all hear: 4 bytes a copied grain.
+  // All hear the grains that each takes: 4 bytes a copied grain.
   std::vector<std::size_t> counts;
   const std::vector<std::uint32_t> wanted = gathered(taken, counts);
   given.clear();

@@ -65,7 +65,7 @@ public:
     std::vector<std::size_t> counts;
     return gathered(values, counts);
   }
-  /// Of processes that have as many values each.
+  /// The same of processes that have as many values each.
   template <typename T>
   std::vector<T> gathered_alike(const std::vector<T>& values) const
   {
