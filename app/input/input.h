@@ -78,7 +78,7 @@ struct ReportLabels
   std::string date; ///< as it was written: no clock
 };
 
-/// Whether all processes of a run compute a body together; else each makes tests of its own.
+/// The choice whether all processes of a run compute a body together; else each makes tests of its own.
 enum class SharedBody
 {
   by_size, ///< a large one

@@ -76,7 +76,7 @@ std::vector<BoardPart> parts_of(const RunPlan& plan, const std::vector<Laborator
 
 namespace
 {
-/// What keeps a test of an input from being made by processes together; empty: nothing.
+/// Returns what keeps a test of an input from being made by processes together; empty: nothing.
 std::string not_shared_yet(const Input& input)
 {
   if (input.clumps.diameter || input.minerals.form_of_rock() == MineralGrainForm::rigid)

@@ -145,7 +145,7 @@ private:
   /// The moving bodies: the rigid groups, or else the grains (and the images of these behind them).
   const Grains<dim>& bodies() const { return groups.empty() ? body.grains : groups.bodies; }
   Grains<dim>& bodies() { return groups.empty() ? body.grains : groups.bodies; }
-  /// Those that this process moves.
+  /// The bodies that this process moves.
   GrainRange moved() const { return groups.empty() ? part.grains() : GrainRange{0, std::uint32_t(groups.size())}; }
   double kinetic_energy(std::uint32_t one_body) const;
   double squared_unbalanced_force(std::size_t one_body) const;

@@ -13,7 +13,7 @@ namespace feldspar
 {
 namespace
 {
-/// What keeps a body from being computed by several processes, if anything.
+/// Returns what keeps a body from being computed by several processes, if anything.
 template <int dim>
 std::string what_is_not_shared(const Specimen<dim>& body, const bool has_gravity, const std::vector<Wall>& walls)
 {

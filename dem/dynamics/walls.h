@@ -89,9 +89,9 @@ public:
 
   /// Sum of the grains' pressure on a wall [N], compression positive.
   double force(const std::size_t wall) const { return forces[wall]; }
-  /// Of the grains of this process, one after another: the pressure of each on a wall [N].
+  /// Pressure of each grain of this process near a wall [N].
   std::vector<double> pressures(std::size_t wall) const;
-  /// Of each the normal stiffness where it presses, else 0 [N/m].
+  /// Normal stiffness of each where it presses, else 0 [N/m].
   std::vector<double> stiffnesses_in_touch(const Specimen<dim>& body, std::size_t wall) const;
   /// Sets the force on a wall and the stiffness of its contacts to the sums of those of all processes.
   void set_sums(std::size_t wall, const std::vector<double>& pressures, const std::vector<double>& stiffnesses);
