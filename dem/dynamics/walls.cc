@@ -161,6 +161,7 @@ template <int dim>
 std::vector<double> Walls<dim>::pressures(const std::size_t wall) const
 {
   std::vector<double> all;
+  all.reserve(touches[wall].size());
   for (const auto& touch : touches[wall])
     all.push_back(touch.normal_force);
   return all;
@@ -170,6 +171,7 @@ template <int dim>
 std::vector<double> Walls<dim>::stiffnesses_in_touch(const Specimen<dim>& body, const std::size_t wall) const
 {
   std::vector<double> all;
+  all.reserve(touches[wall].size());
   for (const auto& touch : touches[wall])
     all.push_back(touch.overlap > 0.0 ? stiffness(body, body.grains.radius[touch.grain]) : 0.0);
   return all;

@@ -58,6 +58,7 @@ std::vector<CrackBetween> cracks_of(const Dynamics<dim>& dynamics, const std::ve
                                     const double axial_strain)
 {
   std::vector<CrackBetween> cracks;
+  cracks.reserve(breaks.size());
   for (const Break& event : breaks)
     {
       const auto [one, two] = ends_of(dynamics.specimen(), event);

@@ -231,6 +231,7 @@ void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector
   std::erase_if(sources, has_ended);
 
   std::vector<BrokenSegment> broken_now;
+  broken_now.reserve(of_step.size());
   for (const auto& [crack, grain_1, grain_2] : of_step)
     {
       broken_now.push_back(
@@ -238,6 +239,7 @@ void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector
       std::copy_n(crack.centroid.begin(), dim, broken_now.back().place.begin());
     }
   std::vector<BrokenSegment*> each;
+  each.reserve(broken_now.size());
   for (BrokenSegment& broken : broken_now)
     each.push_back(&broken);
   measure(dynamics, each); // a joint may go before its event is measured

@@ -33,6 +33,7 @@ std::vector<std::uint32_t> divided(const Specimen<dim>& whole, const unsigned in
   for (std::size_t i = 0; i < n_grains; ++i)
     weight[i + 1] += weight[i] + 1;
   std::vector<std::uint32_t> first_of{0};
+  first_of.reserve(n_parts + 1);
   for (unsigned int part = 1; part < n_parts; ++part)
     first_of.push_back(
       std::uint32_t(std::ranges::lower_bound(weight, weight.back() * part / n_parts) - weight.begin()));
@@ -93,6 +94,7 @@ std::vector<std::uint32_t> BodyShare<dim>::held() const
   if (!is_shared())
     return {};
   std::vector<std::uint32_t> grains = taken;
+  grains.reserve(taken.size() + own.size());
   for (std::uint32_t i = own.first; i < own.end; ++i)
     grains.push_back(i);
   return grains;
