@@ -349,8 +349,8 @@ void record_grains(const Grains<dim>& grains, const double dt, SweepMemory<dim>&
 {
   constexpr std::size_t size = SweepMemory<dim>::record_size, first_turn = size - (dim == 2 ? 2 : 4);
   memory.grain_records.resize(size * grains.size());
-  const auto record = [&](const std::size_t i) {
-    double* const records = memory.grain_records.data();
+  double* const records = memory.grain_records.data();
+  const auto record = [&grains, dt, records](const std::size_t i) {
     for (std::size_t c = 0; c < dim; ++c)
       records[size * i + c] = grains.position[c][i];
     for (std::size_t c = 0; c < n_rotations<dim>; ++c)
