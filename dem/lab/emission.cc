@@ -172,6 +172,13 @@ void EmissionWatch<dim>::enclose(Source& source) const
 template <int dim>
 void EmissionWatch<dim>::measure(const Dynamics<dim>& dynamics, const std::vector<BrokenSegment*>& segments)
 {
+  if (!dynamics.sharing().is_shared())
+    {
+      for (BrokenSegment* const broken : segments)
+        if (const auto moment = moment_of(dynamics, *broken))
+          Eigen::Map<Tensor<dim>>(broken->moment.data()) = *moment;
+      return;
+    }
   if (segments.empty())
     return;
   std::vector<double> numbers, moments; // of those measured
