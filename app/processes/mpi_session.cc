@@ -31,6 +31,17 @@ namespace
 /// The processes that are handed down to all libraries; no other place names them.
 MPI_Comm all_started() { return MPI_COMM_WORLD; }
 
+/// The started processes that run on this machine.
+struct OfThisMachine
+{
+  OfThisMachine() { MPI_Comm_split_type(all_started(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &communicator); }
+  OfThisMachine(const OfThisMachine&) = delete;
+  OfThisMachine& operator=(const OfThisMachine&) = delete;
+  ~OfThisMachine() { MPI_Comm_free(&communicator); }
+
+  MPI_Comm communicator = MPI_COMM_NULL;
+};
+
 /// MPI without finite elements.
 class MpiAlone
 {
@@ -39,11 +50,8 @@ public:
   {
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-    MPI_Comm of_machine;
-    MPI_Comm_split_type(all_started(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &of_machine);
     int n = 1;
-    MPI_Comm_size(of_machine, &n);
-    MPI_Comm_free(&of_machine);
+    MPI_Comm_size(OfThisMachine().communicator, &n);
     share_of_cores.emplace(tbb::global_control::max_allowed_parallelism,
                            std::size_t(std::max(1, tbb::info::default_concurrency() / n)));
   }
@@ -121,9 +129,8 @@ int with_mpi(const std::function<int()>& program, MpiSession (*const bring_up)()
   std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
   {
     const MpiSession mpi = bring_up();
-    MPI_Comm of_machine;
-    MPI_Comm_split_type(all_started(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &of_machine);
-    const ranks::Group all(all_started(), of_machine);
+    const OfThisMachine of_this_machine;
+    const ranks::Group all(all_started(), of_this_machine.communicator);
     try
       {
         exit_code = guarded(program);

@@ -243,25 +243,17 @@ void Dynamics<dim>::collect()
     std::ranges::transform(own, std::back_inserter(of_own), [&](const std::size_t j) { return values[j]; });
     return part.gathered(of_own);
   };
-  const auto number = of_all(joints.number), grain_1 = of_all(joints.grain_1), grain_2 = of_all(joints.grain_2);
+  auto number = of_all(joints.number), grain_1 = of_all(joints.grain_1), grain_2 = of_all(joints.grain_2);
   const std::size_t n = number.size();
-  Joints<dim> whole = joints;
+  Joints<dim> whole;
   if (part.is_first())
-    whole.resize_all(n);
-  std::vector<std::size_t> place(n); // of each that was gathered: by its number
-  {
-    whole.number = number;
-    const auto order = whole.by_number();
-    for (std::size_t k = 0; k < n; ++k)
-      place[order[k]] = k;
-  }
-  if (part.is_first())
-    for (std::size_t k = 0; k < n; ++k)
-      {
-        whole.number[place[k]] = number[k];
-        whole.grain_1[place[k]] = grain_1[k];
-        whole.grain_2[place[k]] = grain_2[k];
-      }
+    {
+      whole = joints;
+      whole.resize_all(n);
+      whole.number = std::move(number);
+      whole.grain_1 = std::move(grain_1);
+      whole.grain_2 = std::move(grain_2);
+    }
   std::size_t field = 0;
   joints.visit_all([&](const auto& values) {
     std::vector<double> of_own;
@@ -274,12 +266,15 @@ void Dynamics<dim>::collect()
       whole.visit_all([&](auto& into) {
         if (its_number++ == field)
           for (std::size_t k = 0; k < all.size(); ++k)
-            into[k % per_joint * n + place[k / per_joint]] = all[k];
+            into[k % per_joint * n + k / per_joint] = all[k];
       });
     ++field;
   });
   if (part.is_first())
-    joints = std::move(whole);
+    {
+      whole.reorder(whole.by_number());
+      joints = std::move(whole);
+    }
 
   std::vector<Touch<dim>> counted;
   std::ranges::copy_if(touches.list(), std::back_inserter(counted),
