@@ -116,18 +116,19 @@ work_through()
 try_package()
 {
   cp "$package" "$root/tmp/package.deb"
-  cp --recursive "$tree"/examples/{library,first-run/granite.prm} "$tree"/scripts/bits/multiscale-plane.prm "$root/home/reader"
+  (cd "$tree" && cp --recursive --parents examples/{library,first-run,beishan-granite/reference.json} \
+    scripts/bits/multiscale-plane.prm "$root/home/reader")
   stage "apt" inside root <<<"apt-get update --quiet; DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes /tmp/package.deb"
   stage "the command" inside reader <<'END'
 feldspar version
-feldspar lab granite.prm --output granite --quiet --set 'Specimen/Width = 15 mm' --set 'Specimen/Height = 30 mm'
-feldspar multiscale multiscale-plane.prm --output multiscale --quiet --set 'Seeds/Seeds = 1'
+feldspar lab examples/first-run/granite.prm --output granite --quiet --set 'Specimen/Width = 15 mm' --set 'Specimen/Height = 30 mm'
+feldspar multiscale scripts/bits/multiscale-plane.prm --output multiscale --quiet --set 'Seeds/Seeds = 1'
 ls granite multiscale
 END
   stage "the Python module" inside reader <<<"python3 -m feldspar.check"
   stage "compilers" inside root <<<"DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes --no-install-recommends g++ cmake libdeal.ii-dev"
   stage "the programs of examples/library" inside reader <<'END'
-cmake -S library -B build
+cmake -S examples/library -B build
 cmake --build build
 for program in uniaxial_compression one_point notched_plate; do build/$program | tail -n 2; done
 END
