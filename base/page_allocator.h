@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -42,4 +43,8 @@ struct PageAllocator
 
   friend bool operator==(const PageAllocator&, const PageAllocator&) { return true; }
 };
+
+/// Numbers of a whole body, which every step walks through.
+template <typename T>
+using LargeVector = std::vector<T, PageAllocator<T>>;
 } // namespace feldspar

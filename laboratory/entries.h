@@ -33,9 +33,11 @@ inline std::vector<Entry<TestParameters>> common_test_entries()
   const EntryFlags of_grains_alike{.bodies = of_grains.bodies, .needs = of_grains.needs};
   const EntryFlags varies{.varies = true};
   return {
-    entry::integer("Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
-                   "states of the grains kept in the folder fields, at most; the start and the end are among them",
-                   as_basic(of_grains_alike)),
+    entry::integer(
+      "Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
+      "states of the grains kept in the folder fields, at most; the start and the end are among them; of a body of "
+      "more than 100 000 grains fewer in proportion, but four",
+      as_basic(of_grains_alike)),
     entry::number(
       "Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
       "a test stops at this many times the strain of its peak, once the stress has fallen after the peak; a test whose "

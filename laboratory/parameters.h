@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <any>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <typeindex>
@@ -26,6 +28,14 @@ struct TestParameters
   std::optional<double> least_peak_stress;     ///< of a deviator that is a peak [Pa]; none: that of waves
   double least_transits_to_peak = 4.0;         ///< of a wave along the specimen
   double least_fall_after_peak = 0.05;         ///< of the deviator, over the peak
+
+  /// States that are kept of a body, at most: of more than 100 000 grains fewer in proportion, but four, as they lie in memory.
+  unsigned int snapshots_of(const std::size_t n_grains) const
+  {
+    constexpr std::size_t large = 100'000;
+    const std::size_t in_proportion = std::max<std::size_t>(4, n_snapshots * large / std::max(large, n_grains));
+    return unsigned(std::min<std::size_t>(n_snapshots, in_proportion));
+  }
 
   /// The parameters `Own` of some protocols; their defaults until they are set.
   template <typename Own>

@@ -64,8 +64,9 @@ Table Specimen::grains() const
   return std::visit(
     [](const auto& body) {
       Table table;
-      for (std::size_t c = 0; c < body.grains.position.size(); ++c)
-        table.push_back({fmt::format("{}_m", "xyz"[c]), body.grains.position[c]});
+      std::size_t axis = 0;
+      for (const auto& component : body.grains.position)
+        table.push_back({fmt::format("{}_m", "xyz"[axis++]), {component.begin(), component.end()}});
       table.push_back({"radius_m", body.grains.radius});
       if (!body.mineral.empty())
         for (const auto& [name, numbers] :

@@ -120,7 +120,8 @@ TestOutcome run_test(const LaboratoryOrder& order, const std::function<Specimen<
     return advance(
       test, [&] { observer.end_if_wanted(); }, part, observer);
   });
-  return test.finish(!test.has_ended());
+  const bool interrupted = !test.has_ended();
+  return std::move(test).finish(interrupted);
 }
 
 template <int dim>

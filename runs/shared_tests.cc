@@ -14,17 +14,23 @@ namespace feldspar
 {
 namespace
 {
-/// The checkpoints of a shared test, which the first process writes.
+/// The checkpoints of a shared test, which the first process writes. Where cracks have gathered the body is divided anew: all
+/// take up the test from the checkpoint.
 struct SharedCheckpoints
 {
   const Checkpoints& files;
+  const std::function<void()>& take_up;
 
   template <int dim>
   void write(LabTest<dim>& test) const
   {
+    constexpr double tolerated = 1.1;
     test.collect();
     ranks::first([&] { files.write(test); });
-    test.drop();
+    if (ranks::any(ranks::is_first() && !test.has_ended() && test.unevenness() > tolerated))
+      take_up();
+    else
+      test.drop();
   }
 };
 
@@ -39,15 +45,20 @@ void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<
   };
   ProcessesAsPartners partners;
   std::optional<LabTest<dim>> kept;
-  ranks::in_turn([&] {
-    kept.emplace(checkpoints.open(begin, observer));
+  const std::function<void()> take_up = [&] {
+    kept.reset();
+    ranks::in_turn([&] {
+      kept.emplace(checkpoints.open(begin, observer));
+      if (!kept->has_ended())
+        kept->share(partners);
+    });
     if (!kept->has_ended())
-      kept->share(partners);
-  });
-  LabTest<dim>& test = *kept;
+      kept->meet();
+  };
+  take_up();
+  LabTest<dim>& test = *kept; // also once it is taken up anew
   if (test.has_ended())
     return;
-  test.meet();
   std::uint64_t n_asked = 0;
   const auto end_if_one_wants = [&] {
     constexpr std::uint64_t steps_between = 50;
@@ -55,7 +66,7 @@ void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<
       throw Interrupted();
   };
   lead(
-    test, SharedCheckpoints{checkpoints}, observer, order.steps_between_checkpoints,
+    test, SharedCheckpoints{checkpoints, take_up}, observer, order.steps_between_checkpoints,
     [&](const auto& /*keep_if_due*/) { return advance(test, end_if_one_wants, part, observer); }, ranks::any);
 }
 } // namespace

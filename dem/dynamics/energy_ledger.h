@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "base/page_allocator.h"
 #include "dem/storage/exact_sum.h"
 
 #include <cstddef>
@@ -28,7 +29,7 @@ struct EnergyLedger
   ExactSum slip_of_lost_contacts;   ///< dissipated by contacts that have gone; of a shared body those of this process
   double strain_at_start = 0.0;     ///< stored where the test began
   double kinetic_at_start = 0.0;    ///< of the motion that the grains were set off with
-  std::vector<double> damping_work; ///< dissipated at each grain
+  LargeVector<double> damping_work; ///< dissipated at each grain
 
   template <typename Archive>
   void transfer(Archive& archive)

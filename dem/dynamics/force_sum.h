@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/page_allocator.h"
 #include "dem/dynamics/incidence.h"
 #include "dem/dynamics/touches.h"
 #include "dem/specimen/specimen.h"
@@ -21,10 +22,10 @@ struct SumOrder
   GrainRange summed{0, 0};                 ///< the grains that get sums
   std::size_t blocks_in_a_row = 1;         ///< of joints, that one thread sweeps
   std::vector<std::uint32_t> first_behind; ///< place of the first grain behind each block, and of those after all
-  std::vector<std::uint32_t> grain;
-  std::vector<std::uint32_t> first_as_two; ///< of each grain among the joints; [n + 1]
-  std::vector<std::uint32_t> first_as_one; ///< [n]
-  std::vector<std::uint32_t> joint;
+  LargeVector<std::uint32_t> grain;
+  LargeVector<std::uint32_t> first_as_two; ///< of each grain among the joints; [n + 1]
+  LargeVector<std::uint32_t> first_as_one; ///< [n]
+  LargeVector<std::uint32_t> joint;
 };
 
 /// Sets force and couple of the grains behind a block of joints to the sums over their joints.

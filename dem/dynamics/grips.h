@@ -34,7 +34,7 @@ public:
   std::size_t size() const { return grips.size(); }
   bool holds(const std::size_t grain) const { return free[grain] == 0.0; }
   /// 0 for a grain that belongs to a grip, 1 for a free one: a factor for what moves it; [n_grains].
-  const std::vector<double>& freedom() const { return free; }
+  const LargeVector<double>& freedom() const { return free; }
   const Vector<dim>& velocity(const std::size_t grip) const { return grips[grip].velocity; }
 
   const std::vector<std::uint32_t>& members(const std::size_t grip) const { return grips[grip].members; }
@@ -55,6 +55,6 @@ private:
   };
 
   std::vector<Grip> grips;
-  std::vector<double> free;
+  LargeVector<double> free;
 };
 } // namespace feldspar

@@ -9,7 +9,7 @@ std::uint32_t Images<dim>::number_of(const PeriodicImage<dim>& image, Grains<dim
   if (is_new)
     {
       images.push_back(image);
-      const auto repeat = [&](std::vector<double>& values) { values.push_back(values[image.owner]); };
+      const auto repeat = [&](auto& values) { values.push_back(values[image.owner]); };
       for (auto* values : {&grains.radius, &grains.mass, &grains.moment_of_inertia})
         repeat(*values);
       for (auto* components : {&grains.position, &grains.velocity, &grains.force})

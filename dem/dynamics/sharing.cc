@@ -104,7 +104,7 @@ void Dynamics<dim>::agree_on_copies()
   if (!part.is_shared())
     return;
   term_counts.clear();
-  std::vector<std::uint32_t> needed(body.joints.grain_1);
+  std::vector<std::uint32_t> needed(body.joints.grain_1.begin(), body.joints.grain_1.end());
   needed.insert(needed.end(), body.joints.grain_2.begin(), body.joints.grain_2.end());
   for (const Touch<dim>& touch : touches.list())
     {
@@ -112,7 +112,8 @@ void Dynamics<dim>::agree_on_copies()
       needed.push_back(touch.grain_2);
     }
   part.agree_on_copies(std::move(needed));
-  sweep_memory.moving = part.held();
+  sweep_memory.known = part.grains();
+  sweep_memory.copied = part.copies();
 }
 
 /// Work of the forces from outside on each own grain over a step of dt [s], component by component [J].
@@ -238,7 +239,7 @@ void Dynamics<dim>::collect()
   auto& joints = body.joints;
   std::vector<std::size_t> own = joints.by_number();
   std::erase_if(own, [&](const std::size_t j) { return !part.counts(joints.grain_1[j]); });
-  const auto of_all = [&](const std::vector<std::uint32_t>& values) {
+  const auto of_all = [&](const auto& values) {
     std::vector<std::uint32_t> of_own;
     std::ranges::transform(own, std::back_inserter(of_own), [&](const std::size_t j) { return values[j]; });
     return part.gathered(of_own);
@@ -251,8 +252,8 @@ void Dynamics<dim>::collect()
       whole = joints;
       whole.resize_all(n);
       whole.number = std::move(number);
-      whole.grain_1 = std::move(grain_1);
-      whole.grain_2 = std::move(grain_2);
+      std::ranges::copy(grain_1, whole.grain_1.begin());
+      std::ranges::copy(grain_2, whole.grain_2.begin());
     }
   std::size_t field = 0;
   joints.visit_all([&](const auto& values) {

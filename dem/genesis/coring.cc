@@ -148,14 +148,13 @@ Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int,
 }
 
 template <int dim>
-Specimen<dim> cored(const Specimen<dim>& cell, const BodyShape shape)
+Specimen<dim> cored(Specimen<dim> cell, const BodyShape shape)
 {
-  Specimen<dim> core = cell;
-  core.shape = shape;
   const std::size_t n = cell.grains.size();
   std::vector<bool> lies_inside(n);
   for (std::size_t i = 0; i < n; ++i)
-    lies_inside[i] = !core.is_round() || cell.distance_from_axis(at<dim>(cell.grains.position, i)) < 0.5 * cell.size[0];
+    lies_inside[i] =
+      shape != BodyShape::cylinder || cell.distance_from_axis(at<dim>(cell.grains.position, i)) < 0.5 * cell.size[0];
 
   DisjointSets groups(n);
   std::vector<bool> is_cut(n, false); // lost a joint
@@ -194,8 +193,9 @@ Specimen<dim> cored(const Specimen<dim>& cell, const BodyShape shape)
         stays[i] = group == body || !has_cut[group];
         n_removed += !stays[i];
       }
-  core.joints.keep(whole);
-  core = part_of(std::move(core), stays);
+  cell.joints.keep(whole);
+  Specimen<dim> core = part_of(std::move(cell), stays);
+  core.shape = shape;
   for (std::size_t j = 0; j < core.joints.size(); ++j)
     core.joints.number[j] = std::uint32_t(j);
   installation::fill_report(core, installation::pair_gaps(core, 0.0));
@@ -206,6 +206,6 @@ Specimen<dim> cored(const Specimen<dim>& cell, const BodyShape shape)
 
 template Specimen<2> repeated<2>(const Specimen<2>&, const std::array<unsigned int, 2>&);
 template Specimen<3> repeated<3>(const Specimen<3>&, const std::array<unsigned int, 3>&);
-template Specimen<2> cored<2>(const Specimen<2>&, BodyShape);
-template Specimen<3> cored<3>(const Specimen<3>&, BodyShape);
+template Specimen<2> cored<2>(Specimen<2>, BodyShape);
+template Specimen<3> cored<3>(Specimen<3>, BodyShape);
 } // namespace feldspar

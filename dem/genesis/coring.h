@@ -18,5 +18,5 @@ Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int,
 /// out of it are cut. Groups of grains that lose their last joint to the body are removed. The report has the
 /// coordination number, porosity and overlaps of what is left, and the installation gap of the cell.
 template <int dim>
-Specimen<dim> cored(const Specimen<dim>& cell, BodyShape shape);
+Specimen<dim> cored(Specimen<dim> cell, BodyShape shape);
 } // namespace feldspar

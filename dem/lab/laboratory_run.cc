@@ -353,7 +353,7 @@ Snapshot LabTest<dim>::snapshot() const
   now.axial_strain = record.curve.back().axial_strain;
   now.axial_stress = record.curve.back().axial_stress;
   for (int c = 0; c < dim; ++c)
-    now.position[c] = specimen.grains.position[c];
+    now.position[c].assign(specimen.grains.position[c].begin(), specimen.grains.position[c].end());
   for (auto& component : now.stress)
     component.reserve(specimen.grains.size());
   for (const Tensor<dim>& stress : set_up.dynamics.grain_stresses())
@@ -376,7 +376,7 @@ template <int dim>
 void LabTest<dim>::take_snapshot()
 {
   snapshots.push_back(snapshot());
-  if (snapshots.size() < wanted.n_snapshots)
+  if (snapshots.size() < wanted.snapshots_of(is_part.size()))
     return;
   std::vector<Snapshot> kept;
   for (std::size_t k = 0; k < snapshots.size(); k += 2)
@@ -386,7 +386,7 @@ void LabTest<dim>::take_snapshot()
 }
 
 template <int dim>
-TestOutcome LabTest<dim>::finish(const bool interrupted) const
+TestOutcome LabTest<dim>::outcome(const bool interrupted, std::vector<Snapshot> shots) const
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
   TestOutcome result{record, {}, {}};
@@ -402,11 +402,10 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
       record.rate_over_laboratory * double(record.curve.back().step - record.curve.front().step);
   result.bookkeeping.time_step = set_up.dynamics.time_step();
   result.bookkeeping.wall_time = wall_time;
-  result.appearance.snapshots = snapshots;
   // The end, unless a row was begun or numbers went wrong in it.
-  if (record.failure.empty() && !snapshots.empty() && snapshots.back().step < record.curve.back().step &&
+  if (record.failure.empty() && !shots.empty() && shots.back().step < record.curve.back().step &&
       record.curve.back().step == set_up.dynamics.n_steps())
-    result.appearance.snapshots.push_back(snapshot());
+    shots.push_back(snapshot());
   for (const auto& flaw : specimen.flaws)
     {
       FlawPicture picture{flaw.name, flaw.open, {}};
@@ -417,18 +416,17 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
 
   // Grains are given as they last stood right if numbers went wrong.
   const bool went_wrong = !record.failure.empty();
-  if (went_wrong && snapshots.empty())
+  if (went_wrong && shots.empty())
     return result;
-  const auto fragment = went_wrong ? snapshots.back().fragment : fragments(specimen);
+  const auto fragment = went_wrong ? shots.back().fragment : fragments(specimen);
   const auto position_of = [&](const std::size_t i) {
     if (!went_wrong)
       return in_space<dim>(at<dim>(specimen.grains.position, i));
     std::array<double, 3> position{};
     for (int c = 0; c < dim; ++c)
-      position[c] = snapshots.back().position[c][i];
+      position[c] = shots.back().position[c][i];
     return position;
   };
-  const auto& shots = result.appearance.snapshots;
   const auto loaded = std::ranges::max_element(shots, [](const Snapshot& one, const Snapshot& other) {
     return std::abs(one.axial_stress) < std::abs(other.axial_stress);
   });
@@ -439,11 +437,13 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
     return (stress[0][i] + stress[3][i] + stress[5][i]) / dim;
   };
   auto& grains = result.appearance.grains_at_end;
+  grains.reserve(specimen.grains.size());
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     grains.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)), position_of(i),
                       specimen.grains.radius[i], fragment[i], specimen.groups.empty() ? 0 : specimen.groups[i] + 1,
                       mean_stress_of(i), specimen.mineral.empty() ? 0 : specimen.mineral[i] + 1});
   result.record.fragments = fragments_of(grains, dim);
+  result.appearance.snapshots = std::move(shots);
   return result;
 }
 

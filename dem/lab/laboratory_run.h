@@ -107,12 +107,14 @@ public:
 
   /// The test as it stands, whether it has ended or not. A test whose numbers went wrong has all that was before the
   /// row in which they did.
-  TestOutcome finish(bool interrupted) const;
+  TestOutcome finish(const bool interrupted) const& { return outcome(interrupted, snapshots); }
+  TestOutcome finish(const bool interrupted) && { return outcome(interrupted, std::move(snapshots)); }
 
   /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is. Of a shared test
   /// the first process writes, after collect() and before drop() by all.
   void collect() { set_up.dynamics.collect(); }
   void drop() { set_up.dynamics.drop(); }
+  double unevenness() const { return set_up.dynamics.unevenness(); }
   void write_checkpoint(const std::filesystem::path& file, const std::string& identity);
   /// Throws InputError where the file is missing, torn, foreign or of another identity; the test is then unusable.
   void read_checkpoint(const std::filesystem::path& file, const std::string& identity);
@@ -131,6 +133,7 @@ private:
   void add_row();
   double axial_strain() const;
   StageMoment moment() const;
+  TestOutcome outcome(bool interrupted, std::vector<Snapshot> shots) const;
   Snapshot snapshot() const;
   void take_snapshot();
   void start_gauge();

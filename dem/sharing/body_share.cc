@@ -10,6 +10,9 @@ namespace
 {
 template <int dim>
 constexpr std::size_t n_copied = 2 * dim + n_rotations<dim>; // of a grain: position, velocity, spin
+/// Over that of a joint whose bonds all hold: a step of a broken body takes 2.0 times that of a whole one in the plane and 2.6 in
+/// space, of which grains are a third and a fifth (benchmarks/dynamics_benchmark.cc, space_benchmark.cc).
+constexpr std::size_t work_of_broken_joint = 3;
 
 /// visit(values of all grains) for each number of the motion of a grain.
 template <int dim, typename Visit>
@@ -22,31 +25,49 @@ void for_each_motion(Grains<dim>& grains, const Visit& visit)
     visit(values);
 }
 
-/// The first grain of each part, and the number of grains.
+/// The work of a step on all grains before each, and on all: in units of a grain, and of a joint whose bonds all hold.
 template <int dim>
-std::vector<std::uint32_t> divided(const Specimen<dim>& whole, const unsigned int n_parts)
+std::vector<std::size_t> work_before(const Specimen<dim>& whole)
 {
-  const std::size_t n_grains = whole.grains.size();
-  std::vector<std::size_t> weight(n_grains + 1, 0); // of the grains before each: joints, and the grains themselves
-  for (const std::uint32_t grain : whole.joints.grain_1)
-    ++weight[grain + 1];
-  for (std::size_t i = 0; i < n_grains; ++i)
-    weight[i + 1] += weight[i] + 1;
+  const auto& joints = whole.joints;
+  std::vector<std::size_t> work(whole.grains.size() + 1, 0);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    work[joints.grain_1[j] + 1] += joints.holds_wholly(j) ? 1 : work_of_broken_joint;
+  for (std::size_t i = 0; i < whole.grains.size(); ++i)
+    work[i + 1] += work[i] + 1;
+  return work;
+}
+
+/// The first grain of each part, and the number of grains.
+std::vector<std::uint32_t> divided(const std::vector<std::size_t>& work, const std::size_t n_parts)
+{
   std::vector<std::uint32_t> first_of{0};
   first_of.reserve(n_parts + 1);
-  for (unsigned int part = 1; part < n_parts; ++part)
-    first_of.push_back(
-      std::uint32_t(std::ranges::lower_bound(weight, weight.back() * part / n_parts) - weight.begin()));
-  first_of.push_back(std::uint32_t(n_grains));
+  for (std::size_t part = 1; part < n_parts; ++part)
+    first_of.push_back(std::uint32_t(std::ranges::lower_bound(work, work.back() * part / n_parts) - work.begin()));
+  first_of.push_back(std::uint32_t(work.size() - 1));
   return first_of;
 }
 } // namespace
 
 template <int dim>
+double BodyShare<dim>::unevenness(const Specimen<dim>& whole) const
+{
+  const std::vector<std::size_t> work = work_before(whole);
+  const auto most = [&](const std::vector<std::uint32_t>& division) {
+    std::size_t largest = 0;
+    for (std::size_t part = 0; part + 1 < division.size(); ++part)
+      largest = std::max(largest, work[division[part + 1]] - work[division[part]]);
+    return double(largest);
+  };
+  return is_shared() ? most(first_of) / most(divided(work, partners->number())) : 1.0;
+}
+
+template <int dim>
 BodyShare<dim>::BodyShare(Partners& with, const Specimen<dim>& whole)
   : partners(&with)
   , own{0, 0}
-  , first_of(divided(whole, with.number()))
+  , first_of(divided(work_before(whole), with.number()))
 {
   own = {first_of[with.mine()], first_of[with.mine() + 1]};
 }
@@ -89,18 +110,6 @@ void BodyShare<dim>::agree_on_copies(std::vector<std::uint32_t> needed)
 }
 
 template <int dim>
-std::vector<std::uint32_t> BodyShare<dim>::held() const
-{
-  if (!is_shared())
-    return {};
-  std::vector<std::uint32_t> grains = taken;
-  grains.reserve(taken.size() + own.size());
-  for (std::uint32_t i = own.first; i < own.end; ++i)
-    grains.push_back(i);
-  return grains;
-}
-
-template <int dim>
 double BodyShare<dim>::copy_motions(Grains<dim>& grains, double farthest_way)
 {
   if (!is_shared())
@@ -116,7 +125,7 @@ double BodyShare<dim>::copy_motions(Grains<dim>& grains, double farthest_way)
         }
   };
   for_each_message(first_sent, [&](std::size_t to, const std::size_t first, const std::size_t n) {
-    for_each_motion(grains, [&](const std::vector<double>& values) {
+    for_each_motion(grains, [&](const LargeVector<double>& values) {
       for (std::size_t k = first; k < first + n; ++k)
         sent[to++] = values[given[k]];
     });
@@ -124,7 +133,7 @@ double BodyShare<dim>::copy_motions(Grains<dim>& grains, double farthest_way)
   });
   partners->exchange(sent, first_sent, received, first_received);
   for_each_message(first_received, [&](std::size_t from, const std::size_t first, const std::size_t n) {
-    for_each_motion(grains, [&](std::vector<double>& values) {
+    for_each_motion(grains, [&](LargeVector<double>& values) {
       for (std::size_t k = first; k < first + n; ++k)
         values[taken[k]] = received[from++];
     });
@@ -134,10 +143,12 @@ double BodyShare<dim>::copy_motions(Grains<dim>& grains, double farthest_way)
 }
 
 template <int dim>
-void BodyShare<dim>::bring(std::vector<double>& values) const
+void BodyShare<dim>::bring(LargeVector<double>& values) const
 {
-  if (is_shared() && !values.empty())
-    values = gathered(std::vector<double>(values.begin() + own.first, values.begin() + own.end));
+  if (!is_shared() || values.empty())
+    return;
+  const std::vector<double> all = gathered(std::vector<double>(values.begin() + own.first, values.begin() + own.end));
+  std::ranges::copy(all, values.begin());
 }
 
 template <int dim>

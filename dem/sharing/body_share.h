@@ -23,7 +23,7 @@ public:
     : own{0, std::uint32_t(n_grains)}
   {
   }
-  /// Divides a body into ranges with as many joints each.
+  /// Divides a body into ranges with as much work each.
   BodyShare(Partners& with, const Specimen<dim>& whole);
 
   bool is_shared() const { return partners != nullptr; }
@@ -32,21 +32,23 @@ public:
   GrainRange grains() const { return own; }
   /// Returns whether a joint or a contact is counted by this process: the owner of its first grain.
   bool counts(const std::uint32_t grain_1) const { return own.has(grain_1); }
+  /// The most work of a process, of the body as it is now, over what it would be if the body were divided anew.
+  double unevenness(const Specimen<dim>& whole) const;
   bool concerns(const GrainPair& pair) const { return own.has(pair.first) || own.has(pair.second); }
 
   /// Agrees with the partners on the grains whose motions each needs of others; own ones may be among them. All know the
   /// positions of all.
   void agree_on_copies(std::vector<std::uint32_t> needed);
-  /// The grains whose motions this process knows at every step: its own, and copies. Empty without partners.
-  std::vector<std::uint32_t> held() const;
+  /// The grains of others whose motions this process knows at every step.
+  const std::vector<std::uint32_t>& copies() const { return taken; }
 
   /// Copies the motions of the grains that are copied from their owners. Returns the longest way of any of them and of the own
   /// [m], whose longest is given.
   double copy_motions(Grains<dim>& grains, double farthest_way);
   /// Brings values by grain up to date; [n_grains].
-  void bring(std::vector<double>& values) const;
+  void bring(LargeVector<double>& values) const;
   template <std::size_t n>
-  void bring_all(std::array<std::vector<double>, n>& components) const
+  void bring_all(std::array<LargeVector<double>, n>& components) const
   {
     for (auto& component : components)
       bring(component);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/page_allocator.h"
 #include "base/vector.h"
 
 #include <array>
@@ -12,7 +13,7 @@ namespace feldspar
 {
 /// One array per component; [n] each.
 template <int n_components>
-using Components = std::array<std::vector<double>, n_components>;
+using Components = std::array<LargeVector<double>, n_components>;
 
 template <int n_components>
 void resize(Components<n_components>& components, const std::size_t n)

@@ -134,7 +134,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
   double friction = 0.0;                  ///< μ of broken segments; `further_friction` is added
   double friction_slope = 0.0;            ///< tan φ_b
 
-  std::vector<std::uint32_t> grain_1, grain_2;
+  LargeVector<std::uint32_t> grain_1, grain_2;
   std::vector<std::uint32_t> number; ///< given at installation, for good
 
   std::size_t size() const { return grain_1.size(); }
@@ -266,23 +266,21 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
   void keep(const std::vector<std::size_t>& kept)
   {
     for_each_table([&](auto& table) { table.keep(kept); });
-    for (auto* values : {&grain_1, &grain_2, &number})
-      {
-        for (std::size_t to = 0; to < kept.size(); ++to)
-          (*values)[to] = (*values)[kept[to]];
-        values->resize(kept.size());
-      }
+    for_each_list([&](auto& values) {
+      for (std::size_t to = 0; to < kept.size(); ++to)
+        values[to] = values[kept[to]];
+      values.resize(kept.size());
+    });
   }
 
   /// Makes joint k what joint order[k] was; a permutation of all.
   void reorder(const std::vector<std::size_t>& order)
   {
     for_each_table([&](auto& table) { table.reorder(order); });
-    for (auto* values : {&grain_1, &grain_2, &number})
-      {
-        const std::vector<std::uint32_t> before = *values;
-        std::ranges::transform(order, values->begin(), [&](const std::size_t j) { return before[j]; });
-      }
+    for_each_list([&](auto& values) {
+      const auto before = values;
+      std::ranges::transform(order, values.begin(), [&](const std::size_t j) { return before[j]; });
+    });
   }
 
 private:
@@ -292,6 +290,13 @@ private:
     for (auto* table : {&this->state, &this->segment_state, &this->strength, &this->more_state})
       visit(*table);
     visit(this->response);
+  }
+  template <typename Visitor>
+  void for_each_list(Visitor&& visit)
+  {
+    visit(grain_1);
+    visit(grain_2);
+    visit(number);
   }
 };
 } // namespace feldspar

@@ -63,7 +63,7 @@ private:
   }
 
   std::size_t row_count = 0, column_count = 0;
-  std::vector<double, PageAllocator<double>> values;
+  LargeVector<double> values;
 };
 
 /// Width of a table whose rows are read by packs, for a sweep.

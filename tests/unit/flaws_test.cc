@@ -486,7 +486,7 @@ void expect_forces_of_a_lever()
   // Grains at 1 and 3 parts from the middle of a plate above them, bedded, with a gap over the nearer one, which gets three
   // times the force of the other.
   constexpr int axis = dim - 1;
-  std::array<std::vector<double>, dim> position;
+  Components<dim> position;
   position[0] = {0.4, 0.8};
   position[axis] = {0.48, 0.5};
   if constexpr (dim == 3)

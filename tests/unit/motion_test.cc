@@ -32,7 +32,7 @@ void expect_the_longest_way_of(const std::size_t fastest, const bool is_held)
         grains.velocity[c][i] = i == fastest ? -2.0 : std::sin(double(i + c));
         grains.force[c][i] = i == fastest ? 0.0 : 1e-3 * std::cos(double(i));
       }
-  std::vector<double> freedom(n, 1.0), damping_work(n, 0.0);
+  LargeVector<double> freedom(n, 1.0), damping_work(n, 0.0);
   freedom[fastest] = is_held ? 0.0 : 1.0;
   const double way = move_bodies<dim>(grains, {0, std::uint32_t(n)}, InverseInertia(grains),
                                       {1e-6, 1e-6, 0.7, Vector<dim>::Zero()}, freedom, damping_work);

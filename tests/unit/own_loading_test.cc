@@ -168,7 +168,7 @@ TEST(OwnLoading, EndsWhereTheLateralStrainCannotBeLed)
 TEST(OwnLoading, RefusesALateralStrainThatTheGaugeCannotTell)
 {
   // A grain without a joint does not count to the gauge.
-  const auto loose = placed_specimen({0.25, 0.25}, {std::vector{0.25, 0.75}, std::vector{0.25, 0.75}});
+  const auto loose = placed_specimen({0.25, 0.25}, {{{0.25, 0.75}, {0.25, 0.75}}});
   const auto start = [&](const LoadingStage& stage) {
     LabTest<2> test({own_loading}, loose, following({stage}), {});
     test.advance();
@@ -253,6 +253,17 @@ TEST(OwnLoading, KeepsAsManyStatesAsAreWantedAndTheEnd)
       EXPECT_EQ(kept.front().step, outcome.record.curve.front().step);
       EXPECT_EQ(kept.back().step, outcome.record.curve.back().step);
     }
+}
+
+TEST(TestParameters, KeepFewerStatesOfALargeBody)
+{
+  const TestParameters wanted; // 32 states
+  EXPECT_EQ(wanted.snapshots_of(100'000), 32u);
+  EXPECT_EQ(wanted.snapshots_of(200'000), 16u);
+  EXPECT_EQ(wanted.snapshots_of(10'000'000), 4u);
+  TestParameters few;
+  few.n_snapshots = 2;
+  EXPECT_EQ(few.snapshots_of(10'000'000), 2u);
 }
 
 TEST(OwnLoading, OfACylinderFollowsItsTableToo)

@@ -52,7 +52,7 @@ TEST(SegmentPlace, OfAJointIsThatOfItsFace)
 {
   // Grains of 1 mm and 2 mm whose centres are 3.2 mm apart: the middle of the gap lies 1.1 mm from the first.
   Grains<2> grains;
-  grains.place({1e-3, 2e-3}, {std::vector<double>{0.0, 3.2e-3}, std::vector<double>{0.0, 0.0}});
+  grains.place({1e-3, 2e-3}, {{{0.0, 3.2e-3}, {0.0, 0.0}}});
   Joints<2> joints;
   joints.divide({2}, 0);
   joints.resize_all(1);

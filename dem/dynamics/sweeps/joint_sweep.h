@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace feldspar
@@ -41,8 +42,9 @@ struct SweepMemory
   /// Centre of each grain [m] and its turn over the step [rad], each followed by nothing up to the next four numbers;
   /// in the plane both in one four: x, y, φ.
   static constexpr std::size_t record_size = dim == 2 ? 4 : 8;
-  std::vector<double, PageAllocator<double>> grain_records;
-  std::vector<std::uint32_t> moving; ///< the grains whose motions are known; empty: all
+  LargeVector<double> grain_records;
+  std::optional<GrainRange> known;   ///< the grains whose motions are known; none: all
+  std::vector<std::uint32_t> copied; ///< others whose motions are known
 };
 
 /// Work behind a sweep, while the processor still has the responses of the joints at hand.

@@ -356,16 +356,12 @@ void record_grains(const Grains<dim>& grains, const double dt, SweepMemory<dim>&
     for (std::size_t c = 0; c < n_rotations<dim>; ++c)
       records[size * i + first_turn + c] = dt * grains.spin[c][i];
   };
-  if (memory.moving.empty())
-    for_each_block(grains.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        record(i);
-    });
-  else
-    for_each_block(memory.moving.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k)
-        record(memory.moving[k]);
-    });
+  const auto known = memory.known.value_or(GrainRange{0, std::uint32_t(grains.size())});
+  for_each_block(known.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for (std::size_t i = known.first + begin; i < known.first + end; ++i)
+      record(i);
+  });
+  std::ranges::for_each(memory.copied, record);
 }
 } // namespace joint_sweep
 

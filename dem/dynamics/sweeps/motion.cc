@@ -13,8 +13,8 @@ namespace
 /// Moves a body, or the pack of bodies that begins at i. Returns the square of the way of each [m²].
 template <typename Real, int dim>
 [[gnu::flatten]] Real move_one(Grains<dim>& bodies, const InverseInertia& inverse, const std::size_t i,
-                               const MotionStep<dim>& step, const std::vector<double>& freedom,
-                               std::vector<double>& damping_work)
+                               const MotionStep<dim>& step, const LargeVector<double>& freedom,
+                               LargeVector<double>& damping_work)
 {
   const double kick = 0.5 * (step.previous_dt + step.dt);
   const Real is_free = simd::load<Real>(&freedom[i]);
@@ -52,7 +52,7 @@ template <typename Real, int dim>
 
 template <int dim>
 double move_bodies(Grains<dim>& bodies, const GrainRange& moved, const InverseInertia& inverse,
-                   const MotionStep<dim>& step, const std::vector<double>& freedom, std::vector<double>& damping_work)
+                   const MotionStep<dim>& step, const LargeVector<double>& freedom, LargeVector<double>& damping_work)
 {
   std::vector<double> squared_ways(n_blocks(moved.size()), 0.0);
   for_each_block(moved.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t behind) {
@@ -70,7 +70,7 @@ double move_bodies(Grains<dim>& bodies, const GrainRange& moved, const InverseIn
 }
 
 template double move_bodies<2>(Grains<2>&, const GrainRange&, const InverseInertia&, const MotionStep<2>&,
-                               const std::vector<double>&, std::vector<double>&);
+                               const LargeVector<double>&, LargeVector<double>&);
 template double move_bodies<3>(Grains<3>&, const GrainRange&, const InverseInertia&, const MotionStep<3>&,
-                               const std::vector<double>&, std::vector<double>&);
+                               const LargeVector<double>&, LargeVector<double>&);
 } // namespace feldspar

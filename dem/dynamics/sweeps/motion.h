@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/page_allocator.h"
 #include "base/vector.h"
 #include "dem/storage/grains.h"
 
@@ -21,7 +22,7 @@ struct MotionStep
 /// 1/m [1/kg] and 1/I [1/(kg m²)] of each body. They do not change while bodies move.
 struct InverseInertia
 {
-  std::vector<double> mass, moment;
+  LargeVector<double> mass, moment;
 
   InverseInertia() = default;
   template <int dim>
@@ -40,5 +41,5 @@ struct InverseInertia
 /// longest way that one has gone [m].
 template <int dim>
 double move_bodies(Grains<dim>& bodies, const GrainRange& moved, const InverseInertia& inverse,
-                   const MotionStep<dim>& step, const std::vector<double>& freedom, std::vector<double>& damping_work);
+                   const MotionStep<dim>& step, const LargeVector<double>& freedom, LargeVector<double>& damping_work);
 } // namespace feldspar
