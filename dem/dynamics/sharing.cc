@@ -249,7 +249,11 @@ void Dynamics<dim>::collect()
   Joints<dim> whole;
   if (part.is_first())
     {
-      whole = joints;
+      whole.law = joints.law;
+      whole.divide(joints.division, joints.n_more);
+      whole.thickness = joints.thickness;
+      whole.friction = joints.friction;
+      whole.friction_slope = joints.friction_slope;
       whole.resize_all(n);
       whole.number = std::move(number);
       std::ranges::copy(grain_1, whole.grain_1.begin());
