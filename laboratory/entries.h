@@ -35,8 +35,8 @@ inline std::vector<Entry<TestParameters>> common_test_entries()
   return {
     entry::integer(
       "Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
-      "states of the grains kept in the folder fields, at most; the start and the end are among them; of a body of "
-      "more than 100 000 grains fewer in proportion, but four",
+      "states of the grains kept in the folder fields, at most; the start and the end are among them; above 100 000 "
+      "grains fewer, in inverse proportion to their number, but not below 4",
       as_basic(of_grains_alike)),
     entry::number(
       "Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},

@@ -29,7 +29,8 @@ struct TestParameters
   double least_transits_to_peak = 4.0;         ///< of a wave along the specimen
   double least_fall_after_peak = 0.05;         ///< of the deviator, over the peak
 
-  /// States that are kept of a body, at most: of more than 100 000 grains fewer in proportion, but four, as they lie in memory.
+  /// States that are kept of a body of so many grains, at most. They stay in memory: above 100 000 grains there are fewer, in
+  /// inverse proportion, but not below 4.
   unsigned int snapshots_of(const std::size_t n_grains) const
   {
     constexpr std::size_t large = 100'000;

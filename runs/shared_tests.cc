@@ -2,34 +2,40 @@
 
 #include "base/input_error.h"
 #include "base/ranks/ranks.h"
+#include "base/whole_file.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "runs/part.h"
 #include "runs/process_partners.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace feldspar
 {
 namespace
 {
-/// The checkpoints of a shared test, which the first process writes. Where cracks have gathered the body is divided anew: all
-/// take up the test from the checkpoint.
+/// The checkpoints of a shared test, which the first process writes.
 struct SharedCheckpoints
 {
   const Checkpoints& files;
-  const std::function<void()>& take_up;
+  bool& uneven; ///< the body is to be divided anew; all processes then resume from the checkpoint
 
   template <int dim>
   void write(LabTest<dim>& test) const
   {
-    constexpr double tolerated = 1.1;
+    constexpr double tolerated = 1.1; // reading a checkpoint takes as long as some dozens of steps
+    bool found = false;
     test.collect();
-    ranks::first([&] { files.write(test); });
-    if (ranks::any(ranks::is_first() && !test.has_ended() && test.unevenness() > tolerated))
-      take_up();
-    else
+    ranks::first([&] {
+      files.write(test);
+      found = test.unevenness() > tolerated;
+    });
+    uneven = ranks::any(found);
+    if (!uneven)
       test.drop();
   }
 };
@@ -45,18 +51,23 @@ void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<
   };
   ProcessesAsPartners partners;
   std::optional<LabTest<dim>> kept;
-  const std::function<void()> take_up = [&] {
+  bool uneven = false;
+  const auto resume = [&] {
     kept.reset();
+    uneven = false;
     ranks::in_turn([&] {
       kept.emplace(checkpoints.open(begin, observer));
       if (!kept->has_ended())
         kept->share(partners);
     });
+    const std::string state = fmt::format("{} {}", kept->n_steps(), kept->has_ended());
+    if (ranks::any(state != ranks::of_first(state)))
+      throw OutputError(fmt::format("{}: not all processes could read its newest checkpoint", order.name));
     if (!kept->has_ended())
       kept->meet();
   };
-  take_up();
-  LabTest<dim>& test = *kept; // also once it is taken up anew
+  resume();
+  LabTest<dim>& test = *kept; // also after it was resumed once more
   if (test.has_ended())
     return;
   std::uint64_t n_asked = 0;
@@ -66,8 +77,13 @@ void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<
       throw Interrupted();
   };
   lead(
-    test, SharedCheckpoints{checkpoints, take_up}, observer, order.steps_between_checkpoints,
-    [&](const auto& /*keep_if_due*/) { return advance(test, end_if_one_wants, part, observer); }, ranks::any);
+    test, SharedCheckpoints{checkpoints, uneven}, observer, order.steps_between_checkpoints,
+    [&](const auto& /*keep_if_due*/) {
+      if (uneven)
+        resume();
+      return advance(test, end_if_one_wants, part, observer);
+    },
+    ranks::any);
 }
 } // namespace
 

@@ -63,8 +63,8 @@ public:
 
   /// Writes an array with a checksum: a change by a disk or a broken write is seen when it is read. `n_columns` values
   /// make a row.
-  template <typename T, typename Memory>
-  void array(const std::string& name, std::vector<T, Memory>& values, const std::size_t n_columns = 1)
+  template <typename T, typename Allocator>
+  void array(const std::string& name, std::vector<T, Allocator>& values, const std::size_t n_columns = 1)
   {
     const std::array<hsize_t, 2> shape{values.size() / n_columns, n_columns};
     const int rank = n_columns > 1 ? 2 : 1;
@@ -130,8 +130,8 @@ public:
   /// Returns the number of values of an array.
   std::size_t size_of(const std::string& name) const { return size_of(name, group.openDataSet(name)); }
 
-  template <typename T, typename Memory>
-  void array(const std::string& name, std::vector<T, Memory>& values)
+  template <typename T, typename Allocator>
+  void array(const std::string& name, std::vector<T, Allocator>& values)
   {
     const H5::DataSet set = group.openDataSet(name);
     values.resize(size_of(name, set));

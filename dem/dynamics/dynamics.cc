@@ -2,6 +2,7 @@
 
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
+#include "dem/laws/responds_as_one.h"
 
 #include <fmt/format.h>
 
@@ -222,9 +223,7 @@ void Dynamics<dim>::index_joints()
 template <int dim>
 bool Dynamics<dim>::regroup_joints()
 {
-  const bool responds_as_one = std::visit(
-    [](const auto& law) { return RespondsAsOne<std::decay_t<decltype(law)>, dim, simd::Pack>; }, body.joints.law);
-  return responds_as_one && !body.is_periodic() && joint_groups.regroup(body.joints);
+  return responds_as_one<dim>(body.joints.law) && !body.is_periodic() && joint_groups.regroup(body.joints);
 }
 
 /// The grains of a joint that has lost its face may come into contact again. Returns whether joints have gone.

@@ -77,7 +77,7 @@ public:
   /// On the first process: the whole state of a shared body, until drop(), which all call before the next step.
   void collect();
   void drop();
-  /// On the first process, after collect(): as of BodyShare.
+  /// On the first process, after collect(): the largest work of a process over the largest after a new division.
   double unevenness() const { return part.unevenness(body); }
 
   /// Advances by one step and returns what broke in it, of a shared body that which this process counts. Throws Runaway where numbers have gone wrong, which it looks for

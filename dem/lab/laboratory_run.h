@@ -114,6 +114,7 @@ public:
   /// the first process writes, after collect() and before drop() by all.
   void collect() { set_up.dynamics.collect(); }
   void drop() { set_up.dynamics.drop(); }
+  /// On the first process, between collect() and drop().
   double unevenness() const { return set_up.dynamics.unevenness(); }
   void write_checkpoint(const std::filesystem::path& file, const std::string& identity);
   /// Throws InputError where the file is missing, torn, foreign or of another identity; the test is then unusable.

@@ -23,7 +23,7 @@ public:
     : own{0, std::uint32_t(n_grains)}
   {
   }
-  /// Divides a body into ranges with as much work each.
+  /// Divides a body into ranges of equal work.
   BodyShare(Partners& with, const Specimen<dim>& whole);
 
   bool is_shared() const { return partners != nullptr; }
@@ -32,9 +32,9 @@ public:
   GrainRange grains() const { return own; }
   /// Returns whether a joint or a contact is counted by this process: the owner of its first grain.
   bool counts(const std::uint32_t grain_1) const { return own.has(grain_1); }
-  /// The most work of a process, of the body as it is now, over what it would be if the body were divided anew.
-  double unevenness(const Specimen<dim>& whole) const;
   bool concerns(const GrainPair& pair) const { return own.has(pair.first) || own.has(pair.second); }
+  /// The largest work of a process over the largest after a new division, of the body as it is now.
+  double unevenness(const Specimen<dim>& whole) const;
 
   /// Agrees with the partners on the grains whose motions each needs of others; own ones may be among them. All know the
   /// positions of all.
