@@ -70,8 +70,6 @@ inline const std::vector<NotRun> commands_not_run{
   {"benchmarks/README.md", "benchmarks/profile.sh build/release/app/feldspar",
    "needs perf, which is in no package of the tests"},
   {"benchmarks/README.md", "python3 benchmarks/shared_body.py build/release", "measures an idle machine; minutes"},
-  {"benchmarks/README.md", "python3 benchmarks/million_spheres.py build/release",
-   "measures an idle machine; a quarter of an hour"},
   {"benchmarks/README.md", "python3 benchmarks/load.py build/release/app/feldspar", "half an hour, 9 GB"},
   {"benchmarks/README.md", "python3 benchmarks/soak.py build/release/app/feldspar", "an hour"},
   {"benchmarks/README.md", "python3 benchmarks/fuzz.py", "an hour; the integration fuzzes for a minute"},
