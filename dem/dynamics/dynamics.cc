@@ -2,7 +2,7 @@
 
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
-#include "dem/laws/responds_as_one.h"
+#include "dem/storage/responds_as_one.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "dem/sharing/body_share.h"
 
-#include "dem/laws/responds_as_one.h"
+#include "dem/storage/responds_as_one.h"
 
 #include <algorithm>
 #include <iterator>
