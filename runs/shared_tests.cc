@@ -27,7 +27,7 @@ struct SharedCheckpoints
   template <int dim>
   void write(LabTest<dim>& test) const
   {
-    constexpr double tolerated = 1.1; // reading a checkpoint takes as long as some dozens of steps
+    constexpr double tolerated = 1.1; // for less all would hardly read the body again
     bool found = false;
     test.collect();
     ranks::first([&] {
