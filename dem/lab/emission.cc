@@ -12,6 +12,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <utility>
 #include <variant>
 
 namespace feldspar
@@ -129,12 +130,48 @@ EmissionWatch<dim>::EmissionWatch(const Specimen<dim>& body, const EmissionParam
     thickness_ratio = wanted.thickness.value_or(body.size[0]) / body.thickness;
 }
 
+template <int dim>
+void EmissionWatch<dim>::Source::add(const BrokenSegment& one)
+{
+  const Eigen::Map<const Vector<dim>> place(one.place.data());
+  const Vector<dim> before = broken.empty() ? Vector<dim>(place) : centre();
+  broken.push_back(one);
+  sum_of_places += place;
+  const Vector<dim> now = centre();
+  const double moved = (now - before).norm(), own = (place - now).norm();
+  farthest = {std::max(farthest[0] - moved, own), std::max(farthest[1] + moved, own)};
+  has_grown = true;
+}
+
+template <int dim>
+void EmissionWatch<dim>::Source::measure_extent()
+{
+  const Vector<dim> middle = centre();
+  double squared = 0.0;
+  for (const BrokenSegment& one : broken)
+    squared = std::max(squared, (Eigen::Map<const Vector<dim>>(one.place.data()) - middle).squaredNorm());
+  farthest.fill(std::sqrt(squared));
+}
+
+template <int dim>
+bool EmissionWatch<dim>::Source::is_near(const Vector<dim>& place, const double more)
+{
+  constexpr double for_rounding = 1e-9; // of as many breaks in a step as there may be
+  const double distance = (place - centre()).norm() - more;
+  if (distance <= (1.0 - for_rounding) * farthest[0])
+    return true;
+  if (distance > (1.0 + for_rounding) * farthest[1])
+    return false;
+  measure_extent();
+  return distance <= farthest[0];
+}
+
 /// The event that a break at a place belongs to: the first of those that it is near to, which takes the others over, or a
 /// new one.
 template <int dim>
 typename EmissionWatch<dim>::Source& EmissionWatch<dim>::source_at(const Vector<dim>& place, const double time)
 {
-  const auto is_near = [&](const Source& source) { return (place - source.centre).norm() <= source.radius; };
+  const auto is_near = [&](Source& source) { return source.is_near(place, least_radius); };
   const auto first = std::ranges::find_if(sources, is_near);
   if (first == sources.end())
     {
@@ -144,28 +181,17 @@ typename EmissionWatch<dim>::Source& EmissionWatch<dim>::source_at(const Vector<
       return sources.back();
     }
   sources.erase(std::remove_if(std::next(first), sources.end(),
-                               [&](const Source& other) {
+                               [&](Source& other) {
                                  if (!is_near(other))
                                    return false;
                                  events[other.event].part_of = first->event;
                                  keep_larger(events[first->event].moment, events[other.event].moment);
-                                 first->broken.insert(first->broken.end(), other.broken.begin(), other.broken.end());
+                                 for (const BrokenSegment& one : other.broken)
+                                   first->add(one);
                                  return true;
                                }),
                 sources.end());
   return *first;
-}
-
-template <int dim>
-void EmissionWatch<dim>::enclose(Source& source) const
-{
-  source.centre.setZero();
-  for (const BrokenSegment& one : source.broken)
-    source.centre += Eigen::Map<const Vector<dim>>(one.place.data()) / double(source.broken.size());
-  double farthest = 0.0;
-  for (const BrokenSegment& one : source.broken)
-    farthest = std::max(farthest, (Eigen::Map<const Vector<dim>>(one.place.data()) - source.centre).norm());
-  source.radius = least_radius + farthest;
 }
 
 /// Sets the moments of segments whose joints are there; of a shared body the process that counts a joint measures it.
@@ -255,10 +281,14 @@ void EmissionWatch<dim>::follow(const Dynamics<dim>& dynamics, const std::vector
       const BrokenSegment& broken = broken_now[k];
       Source& source = source_at(Eigen::Map<const Vector<dim>>(broken.place.data()), now);
       all[all.size() - broken_now.size() + k].event = source.event;
-      source.broken.push_back(broken);
-      enclose(source);
-      source.end = now + duration_over_radius * source.radius;
+      source.add(broken);
     }
+  for (Source& source : sources)
+    if (std::exchange(source.has_grown, false))
+      {
+        source.measure_extent();
+        source.end = now + duration_over_radius * (least_radius + source.farthest[0]);
+      }
   // A large event changes slowly, and costs no more than a small one if it is measured as much more seldom.
   measure_those([&](const Source& source) {
     return dynamics.n_steps() % (steps_between + source.broken.size() / segments_a_step) == 0;
@@ -326,7 +356,10 @@ void EmissionWatch<dim>::transfer(Archive& archive)
       group.value("event", source.event);
       group.value("end", source.end);
       group.bytes("broken", source.broken);
-      enclose(source);
+      source.sum_of_places.setZero();
+      for (const BrokenSegment& one : source.broken)
+        source.sum_of_places += Eigen::Map<const Vector<dim>>(one.place.data());
+      source.measure_extent();
     }
 }
 

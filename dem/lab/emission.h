@@ -50,19 +50,26 @@ private:
     Moment moment;                 ///< as long as its joint is there [N m]
   };
 
-  /// A running event and its broken segments.
+  /// A running event and its broken segments, which lie in a ball about the mean of their places. A large event would spend its
+  /// time on their distances from it, which all change with each break: bounds of the farthest answer most questions.
   struct Source
   {
     std::uint64_t event = 0;
-    double end = 0.0;                         ///< time, unless it grows [s]
-    double radius = 0.0;                      ///< [m]
-    Vector<dim> centre = Vector<dim>::Zero(); ///< mean of the places of its breaks [m]
+    double end = 0.0; ///< time, unless it grows [s]
+    bool has_grown = false;
+    Vector<dim> sum_of_places = Vector<dim>::Zero(); ///< in the order of the breaks [m]
+    std::array<double, 2> farthest{};                ///< distance of a break from the centre, at least and at most [m]
     std::vector<BrokenSegment> broken{};
+
+    Vector<dim> centre() const { return sum_of_places / double(broken.size()); }
+    void add(const BrokenSegment& one);
+    /// Measures how far the farthest break is.
+    void measure_extent();
+    /// Returns whether a place is no farther than `more` [m] from the ball.
+    bool is_near(const Vector<dim>& place, double more);
   };
 
   static void keep_larger(Moment& moment, const Moment& other);
-  /// Sets centre and radius by the breaks.
-  void enclose(Source& source) const;
   Source& source_at(const Vector<dim>& place, double time);
   static void measure(const Dynamics<dim>& dynamics, const std::vector<BrokenSegment*>& segments);
   void measure(const Dynamics<dim>& dynamics, const std::vector<Source*>& those);
