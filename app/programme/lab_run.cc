@@ -1,13 +1,11 @@
 #include "app/programme/lab_run.h"
 
-#include "app/input/parameter_table.h"
 #include "app/programme/checks.h"
 #include "app/programme/genesis_effort.h"
 #include "app/programme/laboratory_effort.h"
 #include "app/programme/run_board.h"
 #include "app/run/run_record.h"
 #include "app/screen/expected_length.h"
-#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
@@ -76,19 +74,9 @@ std::vector<BoardPart> parts_of(const RunPlan& plan, const std::vector<Laborator
 
 namespace
 {
-/// Returns what keeps a test of an input from being made by processes together; empty: nothing.
-std::string not_shared_yet(const Input& input)
+bool has_clumps(const Input& input)
 {
-  if (input.clumps.diameter || input.minerals.form_of_rock() == MineralGrainForm::rigid)
-    return "clumps";
-  if (has_smooth_joints(input))
-    return "smooth joints";
-  if (!input.tests.gravity.empty())
-    return "gravity";
-  for (const TestKind& kind : {own_loading.kind, tilt.kind, three_point_bending.kind, semicircular_bending.kind})
-    if (contains(input.test_list, kind))
-      return std::string(kind.name);
-  return {};
+  return input.clumps.diameter || input.minerals.form_of_rock() == MineralGrainForm::rigid;
 }
 } // namespace
 
@@ -99,12 +87,12 @@ bool makes_tests_together(const RunPlan& plan)
   if (first.shared_body == SharedBody::never)
     return false;
   for (const Variant& variant : plan.variants)
-    if (const std::string what = not_shared_yet(variant.input); !what.empty())
+    if (has_clumps(variant.input))
       {
         if (first.shared_body == SharedBody::always)
-          throw InputError("Tests/Shared body = always: {} cannot be computed by several processes together yet; set "
-                           "by size or never",
-                           what);
+          throw InputError(
+            "Tests/Shared body = always: clumps cannot be computed by several processes together yet; set "
+            "by size or never");
         return false;
       }
   return first.shared_body == SharedBody::always || std::ranges::any_of(plan.orders, [&](const SpecimenOrder& order) {

@@ -251,7 +251,8 @@ bool Dynamics<dim>::remove_lost_contacts()
   // Their grains may have rolled into each other while the sides were open: they are in contact from where they stand.
   for (const auto& [ends, energy] : remove_ended_smooth_joints(body))
     {
-      ledger.slip_of_lost_contacts.add(energy);
+      if (part.counts(ends.first))
+        ledger.slip_of_lost_contacts.add(energy);
       Touch<dim> touch = make_touch(body, ends.first, ends.second);
       touch.zero_distance =
         std::min(touch.zero_distance,
@@ -337,6 +338,17 @@ Circumstances Dynamics<dim>::circumstances() const
           *std::min_element(body.grains.radius.begin(), body.grains.radius.end())};
 }
 
+/// Of a step on each body, in their order [J].
+template <int dim>
+std::vector<double> Dynamics<dim>::works_of_gravity() const
+{
+  std::vector<double> works;
+  works.reserve(moved().size());
+  for (std::size_t i = moved().first; i < moved().end; ++i)
+    works.push_back(dt * bodies().mass[i] * gravity.dot(at<dim>(bodies().velocity, i)));
+  return part.gathered(works);
+}
+
 /// Returns how far a grain has gone at most [m]: infinite in a periodic body, whose images move with the cell too, and with rigid
 /// groups, whose members turn.
 template <int dim>
@@ -346,8 +358,8 @@ double Dynamics<dim>::integrate()
     move_bodies(bodies(), moved(), inverse_inertia, {previous_dt, dt, parameters.damping, gravity}, grips.freedom(),
                 ledger.damping_work);
   if (!gravity.isZero(0.0))
-    for (std::size_t i = 0; i < moved().size(); ++i)
-      ledger.boundary_work += dt * bodies().mass[i] * gravity.dot(at<dim>(bodies().velocity, i));
+    for (const double work : works_of_gravity())
+      ledger.boundary_work += work;
   groups.carry_members(body.grains, dt);
   return body.is_periodic() || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
 }
@@ -367,7 +379,7 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step, const doubl
       breaks.insert(breaks.end(), smooth_breaks.begin(), smooth_breaks.end());
       add_smooth_forces(body);
     }
-  contact_made = wall_set.press(step, body) || contact_made;
+  contact_made = wall_set.press(step, body, part) || contact_made;
   for (int c = 0; c < dim; ++c)
     for (std::size_t i = 0; i < applied_force[c].size(); ++i)
       body.grains.force[c][i] += applied_force[c][i];

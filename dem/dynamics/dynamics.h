@@ -130,6 +130,8 @@ public:
   /// Mean stress of a periodic body from the contacts across the sides of the cell alone: the mean of the tractions. It
   /// equals the other mean where forces balance.
   Tensor<dim> boundary_stress() const;
+  /// Sum of the forces on all grains along an axis [N].
+  double sum_of_forces(int axis) const;
   /// Force that the grains above a plane across the last axis receive from those below [N], along that axis.
   double force_across(double height) const;
   /// The fragment of each grain, as fragments() of specimen/fragments.h; [n_grains].
@@ -159,6 +161,7 @@ private:
   void choose_time_step();
   Circumstances circumstances() const;
   double integrate();
+  std::vector<double> works_of_gravity() const;
   std::vector<Break> update_contacts(double dt, double farthest_way);
   std::vector<std::vector<double>> works_of_applied_forces(double dt) const;
   std::vector<Break> agree(std::vector<Break> breaks, double dt);

@@ -13,6 +13,15 @@ namespace feldspar
 struct EnergySums
 {
   ExactSum kinetic, strain, slip, released, damping;
+
+  void add(const EnergySums& other)
+  {
+    kinetic.add(other.kinetic);
+    strain.add(other.strain);
+    slip.add(other.slip);
+    released.add(other.released);
+    damping.add(other.damping);
+  }
 };
 
 /// The energies that only a running sum can give: works, and whatever left the body with a contact that is no more [J].

@@ -1,12 +1,16 @@
 // The measures of a body in motion: energies, unbalanced forces, stresses, contacts. Nothing here changes it.
 
+#include "base/parallel.h"
 #include "base/simd.h"
 #include "dem/dynamics/contact_stress.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 
+#include <oneapi/tbb/combinable.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace feldspar
 {
@@ -44,41 +48,42 @@ Energies Dynamics<dim>::energies() const
     }
   sums.slip.add(ledger.slip_of_lost_contacts);
 
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (part.counts(joints.grain_1[j]))
-      {
-        sums.slip.add(joints.slip_energy[j]);
-        sums.strain.add(joint_energy(joints, j));
-        sums.released.add(dissipated_by_bonds(joints, j));
-      }
+  oneapi::tbb::combinable<EnergySums> of_threads; // exact sums have no order
+  for_each_block(joints.size(), [&](std::size_t, const std::size_t from, const std::size_t to) {
+    EnergySums& own = of_threads.local();
+    for (std::size_t j = from; j < to; ++j)
+      if (part.counts(joints.grain_1[j]))
+        {
+          own.slip.add(joints.slip_energy[j]);
+          own.strain.add(joint_energy(joints, j));
+          own.released.add(dissipated_by_bonds(joints, j));
+        }
+  });
   touches.add_energies(sums, part);
   wall_set.add_energies(sums, body);
-  add_smooth_energies(body, sums.strain, sums.slip);
+  add_smooth_energies(body, part.grains(), sums.strain, sums.slip);
 
   // ½ m v(n-½)·v(n+½), and half of the coming step's damping: the values at the current time.
   const double kick = 0.5 * (previous_dt + dt);
-  double kinetic = 0.0, damping = 0.0; // of one body
-  const auto centre = [&](const double force, const double inertia, const double velocity) {
-    const double damping_force = -parameters.damping * std::abs(force) * simd::sign(velocity);
-    kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
-    damping -= 0.5 * damping_force * previous_dt * velocity;
-  };
-  for (std::size_t i = first; i < end; ++i)
-    {
-      kinetic = 0.0;
-      damping = ledger.damping_work[i];
-      if (grips.holds(i))
-        {
-          sums.damping.add(damping);
-          continue;
-        }
-      for (int c = 0; c < dim; ++c)
-        centre(grains.force[c][i] + grains.mass[i] * gravity[c], grains.mass[i], grains.velocity[c][i]);
-      for (int c = 0; c < n_rotations<dim>; ++c)
-        centre(grains.couple[c][i], grains.moment_of_inertia[i], grains.spin[c][i]);
-      sums.kinetic.add(kinetic);
-      sums.damping.add(damping);
-    }
+  for_each_block(end - first, [&](std::size_t, const std::size_t from, const std::size_t to) {
+    EnergySums& own = of_threads.local();
+    for (std::size_t i = first + from; i < first + to; ++i)
+      {
+        double kinetic = 0.0, damping = ledger.damping_work[i];
+        const auto centre = [&](const double force, const double inertia, const double velocity) {
+          const double damping_force = -parameters.damping * std::abs(force) * simd::sign(velocity);
+          kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
+          damping -= 0.5 * damping_force * previous_dt * velocity;
+        };
+        for (int c = 0; c < dim && !grips.holds(i); ++c)
+          centre(grains.force[c][i] + grains.mass[i] * gravity[c], grains.mass[i], grains.velocity[c][i]);
+        for (int c = 0; c < n_rotations<dim> && !grips.holds(i); ++c)
+          centre(grains.couple[c][i], grains.moment_of_inertia[i], grains.spin[c][i]);
+        own.kinetic.add(kinetic);
+        own.damping.add(damping);
+      }
+  });
+  of_threads.combine_each([&](const EnergySums& own) { sums.add(own); });
   const std::vector<double> totals = part.totals({sums.kinetic, sums.strain, sums.slip, sums.released, sums.damping});
   sum.kinetic = totals[0];
   sum.strain = totals[1];
@@ -155,6 +160,15 @@ Tensor<dim> Dynamics<dim>::boundary_stress() const
 }
 
 template <int dim>
+double Dynamics<dim>::sum_of_forces(const int axis) const
+{
+  const auto& forces = body.grains.force[axis];
+  const auto [first, end] = part.grains();
+  const std::vector<double> all = part.gathered(std::vector<double>(forces.begin() + first, forces.begin() + end));
+  return std::accumulate(all.begin(), all.end(), 0.0);
+}
+
+template <int dim>
 double Dynamics<dim>::force_across(const double height) const
 {
   return feldspar::force_across(body, part, touches, height);
@@ -176,6 +190,7 @@ template double Dynamics<2>::largest_unbalanced_force_ratio() const;
 template Tensor<2> Dynamics<2>::mean_stress() const;
 template std::vector<Tensor<2>> Dynamics<2>::grain_stresses() const;
 template Tensor<2> Dynamics<2>::boundary_stress() const;
+template double Dynamics<2>::sum_of_forces(int) const;
 template double Dynamics<2>::force_across(double) const;
 template double Dynamics<2>::faceless_coordination_number() const;
 template double Dynamics<3>::kinetic_energy(std::uint32_t) const;
@@ -186,6 +201,7 @@ template double Dynamics<3>::largest_unbalanced_force_ratio() const;
 template Tensor<3> Dynamics<3>::mean_stress() const;
 template std::vector<Tensor<3>> Dynamics<3>::grain_stresses() const;
 template Tensor<3> Dynamics<3>::boundary_stress() const;
+template double Dynamics<3>::sum_of_forces(int) const;
 template double Dynamics<3>::force_across(double) const;
 template double Dynamics<3>::faceless_coordination_number() const;
 } // namespace feldspar

@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
+#include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/specimen/fragments.h"
 
 #include <algorithm>
@@ -15,18 +16,12 @@ namespace
 {
 /// Returns what keeps a body from being computed by several processes, if anything.
 template <int dim>
-std::string what_is_not_shared(const Specimen<dim>& body, const bool has_gravity, const std::vector<Wall>& walls)
+std::string what_is_not_shared(const Specimen<dim>& body)
 {
   if (body.is_periodic())
     return "a periodic body";
   if (body.groups_are_rigid)
     return "a body of clumps";
-  if (!body.smooth_joints.empty())
-    return "a body with smooth joints";
-  if (has_gravity)
-    return "a body under gravity";
-  if (std::ranges::any_of(walls, &Wall::pivots))
-    return "a body under plates that pivot";
   return {};
 }
 
@@ -42,7 +37,7 @@ struct PlainBreak
 template <int dim>
 void Dynamics<dim>::share(Partners& with)
 {
-  if (const std::string what = what_is_not_shared(body, !gravity.isZero(0.0), wall_set.list()); !what.empty())
+  if (const std::string what = what_is_not_shared(body); !what.empty())
     throw InputError("{} cannot be computed by several processes together yet", what);
   part = BodyShare<dim>(with, body);
   if (!part.is_first())
@@ -71,6 +66,7 @@ void Dynamics<dim>::keep_own()
       kept.push_back(j);
   joints.keep(kept);
   joints = Joints<dim>(joints); // without the room of those that have gone
+  std::erase_if(body.smooth_joints, [&](const SmoothJoint<dim>& joint) { return !part.concerns(joint.ends()); });
   std::vector<Touch<dim>> own_touches;
   std::ranges::copy_if(touches.list(), std::back_inserter(own_touches),
                        [&](const Touch<dim>& touch) { return part.concerns(touch.ends()); });
@@ -106,11 +102,10 @@ void Dynamics<dim>::agree_on_copies()
   term_counts.clear();
   std::vector<std::uint32_t> needed(body.joints.grain_1.begin(), body.joints.grain_1.end());
   needed.insert(needed.end(), body.joints.grain_2.begin(), body.joints.grain_2.end());
+  for (const SmoothJoint<dim>& joint : body.smooth_joints)
+    needed.insert(needed.end(), {joint.grain_1, joint.grain_2});
   for (const Touch<dim>& touch : touches.list())
-    {
-      needed.push_back(touch.grain_1);
-      needed.push_back(touch.grain_2);
-    }
+    needed.insert(needed.end(), {touch.grain_1, touch.grain_2});
   part.agree_on_copies(std::move(needed));
   sweep_memory.known = part.grains();
   sweep_memory.copied = part.copies();
@@ -166,7 +161,7 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
           if (part.grains().has(i))
             forces.push_back(body.grains.force[c][i]);
       }
-  std::erase_if(breaks, [&](const Break& event) { return !part.counts(body.joints.grain_1[event.joint]); });
+  std::erase_if(breaks, [&](const Break& event) { return !part.counts(broken_joint(body, event).ends.first); });
   terms.push_back({contact_made ? 1.0 : 0.0, double(breaks.size())});
   terms = part.gathered_lists(terms, term_counts);
 
@@ -190,7 +185,7 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
     {
       plain.reserve(breaks.size());
       for (const Break& event : breaks)
-        plain.push_back({body.joints.number[event.joint], event.segment, event.released_energy});
+        plain.push_back({broken_joint(body, event).number, event.segment, event.released_energy});
       plain = part.gathered(plain);
       std::ranges::sort(plain, {}, [](const PlainBreak& one) { return std::pair(one.joint, one.segment); });
     }
@@ -216,6 +211,9 @@ std::vector<std::uint32_t> Dynamics<dim>::fragments() const
   for (std::size_t j = 0; j < body.joints.size(); ++j)
     if (part.counts(body.joints.grain_1[j]) && body.joints.holds(j))
       held.insert(held.end(), {body.joints.grain_1[j], body.joints.grain_2[j]});
+  for (const SmoothJoint<dim>& joint : body.smooth_joints)
+    if (part.counts(joint.grain_1) && joint.state.bonded)
+      held.insert(held.end(), {joint.grain_1, joint.grain_2});
   held = part.gathered(held);
   DisjointSets sets(body.grains.size());
   for (std::size_t k = 0; k < held.size(); k += 2)
@@ -281,6 +279,8 @@ void Dynamics<dim>::collect()
       joints = std::move(whole);
     }
 
+  std::erase_if(body.smooth_joints, [&](const SmoothJoint<dim>& joint) { return !part.counts(joint.grain_1); });
+  body.smooth_joints = part.gathered(body.smooth_joints);
   std::vector<Touch<dim>> counted;
   std::ranges::copy_if(touches.list(), std::back_inserter(counted),
                        [&](const Touch<dim>& touch) { return part.counts(touch.grain_1); });

@@ -272,7 +272,7 @@ double Walls<dim>::stored_energy(const Specimen<dim>& body, const WallTouch<dim>
 }
 
 template <int dim>
-void Walls<dim>::balance(const Specimen<dim>& body, const std::size_t wall)
+void Walls<dim>::balance(const Specimen<dim>& body, const BodyShare<dim>& share, const std::size_t wall)
 {
   Wall& plate = walls[wall];
   constexpr double at_pivot = 0.0; // where a plate has the distance that it has everywhere when it is level
@@ -281,18 +281,18 @@ void Walls<dim>::balance(const Specimen<dim>& body, const std::size_t wall)
   for (const auto& touch : touches[wall])
     springs.push_back({stiffness(body, body.grains.radius[touch.grain]), touch.lever,
                        touch.zero_distance - distance_from(body, plate, touch.grain, at_pivot)});
-  plate.tilt = balanced_tilt(springs, plate.tilt);
+  plate.tilt = balanced_tilt(share.gathered(springs), plate.tilt);
 }
 
 template <int dim>
-bool Walls<dim>::press(const double dt, Specimen<dim>& body)
+bool Walls<dim>::press(const double dt, Specimen<dim>& body, const BodyShare<dim>& share)
 {
   auto& grains = body.grains;
   bool contact_made = false;
   for (std::size_t w = 0; w < walls.size(); ++w)
     {
       if (walls[w].pivots)
-        balance(body, w);
+        balance(body, share, w);
       const Wall& wall = walls[w];
       double sum = 0.0;
       for (auto& touch : touches[w])

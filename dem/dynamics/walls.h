@@ -2,6 +2,7 @@
 
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/zero_force.h"
+#include "dem/sharing/body_share.h"
 #include "dem/specimen/specimen.h"
 
 #include <array>
@@ -130,7 +131,7 @@ public:
       wall.position += dt * wall.velocity;
   }
   /// Presses the grains, whose forces and couples it adds to; returns whether one has come into contact.
-  bool press(double dt, Specimen<dim>& body);
+  bool press(double dt, Specimen<dim>& body, const BodyShare<dim>& share);
 
   /// Adds what the contacts store and have dissipated.
   void add_energies(EnergySums& sums, const Specimen<dim>& body) const;
@@ -148,7 +149,8 @@ public:
 
 private:
   double stored_energy(const Specimen<dim>& body, const WallTouch<dim>& touch) const; ///< [J]
-  void balance(const Specimen<dim>& body, std::size_t wall);                          ///< Tilts a plate that pivots.
+  /// Tilts a plate that pivots.
+  void balance(const Specimen<dim>& body, const BodyShare<dim>& share, std::size_t wall);
 
   std::vector<Wall> walls;
   std::vector<std::vector<WallTouch<dim>>> touches; ///< of each wall, by grain

@@ -1,5 +1,6 @@
 #include "dem/lab/cracks.h"
 
+#include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/specimen/mineral_sides.h"
 #include "dem/storage/segment_place.h"
 
@@ -8,14 +9,6 @@
 
 namespace feldspar
 {
-template <int dim>
-GrainPair ends_of(const Specimen<dim>& body, const Break& event)
-{
-  const std::size_t n = body.joints.size();
-  return event.joint < n ? GrainPair(body.joints.grain_1[event.joint], body.joints.grain_2[event.joint])
-                         : body.smooth_joints[event.joint - n].ends();
-}
-
 template <int dim>
 Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axial_strain)
 {
@@ -26,7 +19,9 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
   result.segment = event.segment;
   result.step = dynamics.n_steps();
   result.axial_strain = axial_strain;
-  result.on_smooth_joint = event.joint >= joints.size();
+  const BrokenJoint broken = broken_joint(body, event);
+  result.joint = broken.number;
+  result.on_smooth_joint = broken.is_smooth;
   SegmentPlace<dim> place;
   if (result.on_smooth_joint)
     {
@@ -34,19 +29,14 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
       const Vector<dim> branch = Eigen::Map<const Vector<dim>>(joint.branch.data());
       place = {at<dim>(body.grains.position, joint.grain_1) + share_of_grain_1(joint, branch) * branch,
                Eigen::Map<const Vector<dim>>(joint.normal.data()), joint.size(body.thickness)};
-      result.joint = joint.number;
     }
   else
-    {
-      place = segment_place<dim>(body.grains, joints, event.joint, event.segment);
-      result.joint = joints.number[event.joint];
-    }
+    place = segment_place<dim>(body.grains, joints, event.joint, event.segment);
   result.centroid = in_space<dim>(place.centroid);
   result.normal = in_space<dim>(place.normal);
   result.size = place.size;
   result.released_energy = event.released_energy;
-  const auto [one, two] = ends_of(body, event);
-  const MineralSides sides = mineral_sides(body, one, two);
+  const MineralSides sides = mineral_sides(body, broken.ends.first, broken.ends.second);
   result.mineral_1 = sides.lower;
   result.mineral_2 = sides.higher;
   result.on_boundary = sides.on_boundary;
@@ -61,7 +51,7 @@ std::vector<CrackBetween> cracks_of(const Dynamics<dim>& dynamics, const std::ve
   cracks.reserve(breaks.size());
   for (const Break& event : breaks)
     {
-      const auto [one, two] = ends_of(dynamics.specimen(), event);
+      const auto [one, two] = broken_joint(dynamics.specimen(), event).ends;
       cracks.push_back({crack(dynamics, event, axial_strain), one, two});
     }
   if (dynamics.sharing().is_shared() && dynamics.n_breaks() > 0)
@@ -75,8 +65,6 @@ std::vector<CrackBetween> cracks_of(const Dynamics<dim>& dynamics, const std::ve
 
 template decltype(cracks_of<2>) cracks_of<2>;
 template decltype(cracks_of<3>) cracks_of<3>;
-template GrainPair ends_of<2>(const Specimen<2>&, const Break&);
-template GrainPair ends_of<3>(const Specimen<3>&, const Break&);
 template Crack crack<2>(const Dynamics<2>&, const Break&, double);
 template Crack crack<3>(const Dynamics<3>&, const Break&, double);
 } // namespace feldspar

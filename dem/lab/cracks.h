@@ -8,10 +8,6 @@
 
 namespace feldspar
 {
-/// The grains of the joint that broke.
-template <int dim>
-GrainPair ends_of(const Specimen<dim>& body, const Break& event);
-
 /// A crack and the grains whose joint broke.
 struct CrackBetween
 {

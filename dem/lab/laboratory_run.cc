@@ -123,8 +123,6 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const 
 template <int dim>
 void LabTest<dim>::share(Partners& with)
 {
-  if (set_up.loading.drive_stage)
-    throw InputError("a test that follows a loading table cannot be made by several processes together yet");
   set_up.dynamics.share(with);
 }
 
@@ -275,6 +273,8 @@ void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
           check();
           loading.drive_stage(dynamics, stage_walk.demand(now));
           step();
+          if (stage_walk.needs_lateral_strain())
+            dynamics.know_all_motions();
           now = moment();
         }
       while (!stage_walk.is_at_end_of_stage(now) && !is_due());

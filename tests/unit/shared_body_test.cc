@@ -3,22 +3,27 @@
 #include "base/input_error.h"
 #include "dem/flaws/apply.h"
 #include "dem/lab/laboratory_run.h"
+#include "dem/lab/protocols/bending.h"
 #include "dem/lab/protocols/brazilian.h"
 #include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/protocols/tilt.h"
 #include "dem/lab/surroundings.h"
 #include "dem/sharing/body_share.h"
 #include "laboratory/compression.h"
+#include "laboratory/loading_stages.h"
 #include "tests/temporary_folder.h"
 #include "tests/thread_partners.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -199,6 +204,20 @@ TEST(SharedBody, WithAClosedFlawAndAHoleHasTheBitsOfOneProcess)
   expect_same(one, led<2>({uniaxial_compression}, specimen, quick(), 3, 40, 3));
 }
 
+TEST(SharedBody, WithSmoothJointsHasTheBitsOfOneProcess)
+{
+  auto specimen = granite_box(0.016, 0.024);
+  SmoothSides bonded;
+  bonded.tensile_strength = 3e6;
+  bonded.cohesion = 6e6;
+  put_in_flaws<2>(specimen, {ClosedFlaw{{{0.0, 0.006}, {0.016, 0.018}}, bonded},
+                             ClosedFlaw{{{0.004, 0.004}, {0.012, 0.004}}, bonded}});
+  ASSERT_GT(specimen.smooth_joints.size(), 10u);
+  const Measured one = alone<2>({uniaxial_compression}, specimen, quick());
+  EXPECT_GT(std::ranges::count_if(one.cracks, &Crack::on_smooth_joint), 5);
+  expect_same(one, led<2>({uniaxial_compression}, specimen, quick(), 3, 40, 2));
+}
+
 TEST(SharedBody, IsDividedAnewWhereItsBondsHaveBroken)
 {
   const auto specimen = granite_box(0.020, 0.040);
@@ -244,13 +263,52 @@ TEST(SharedBody, MorePartnersThanGrainsAreNoTrouble)
   });
 }
 
+TEST(SharedBody, BentBetweenPlatesThatPivotHasTheBitsOfOneProcess)
+{
+  const auto specimen = granite_box(0.020, 0.020);
+  TestParameters wanted = quick();
+  wanted.of<BendingParameters>().strain_rate = 0.5;
+  wanted.of<BendingParameters>().sampling_strain = 1e-5;
+  for (const LaboratoryCase& which : {LaboratoryCase{three_point_bending}, LaboratoryCase{semicircular_bending}})
+    {
+      const Measured one = alone<2>(which, specimen, wanted);
+      ASSERT_GT(one.cracks.size(), 2u) << which.protocol.kind.name;
+      expect_same(one, led<2>(which, specimen, wanted, 2, 20, 3));
+    }
+}
+
+TEST(SharedBody, UnderGravityAndTiltedHasTheBitsOfOneProcess)
+{
+  const auto specimen = granite_box(0.016, 0.010);
+  TestParameters wanted = quick();
+  wanted.gravity = {0.0, -9.81};
+  wanted.platen_friction = 0.3;
+  wanted.of<TiltParameters>().strain_rate = 200.0;
+  wanted.stop_strain = 0.02;
+  for (const LaboratoryCase& which : {LaboratoryCase{uniaxial_compression}, LaboratoryCase{tilt}})
+    expect_same(alone<2>(which, specimen, wanted), led<2>(which, specimen, wanted, 2, 5, 3));
+}
+
+TEST(SharedBody, LedByItsLateralStrainHasTheBitsOfOneProcess)
+{
+  TestParameters wanted = quick();
+  wanted.of<LoadingTable>().stages = {{.axial_stress = 40e6, .confining_pressure = 5e6},
+                                      {.lateral_strain = -4e-4, .confining_pressure = 5e6},
+                                      {.axial_strain = 6e-3, .confining_pressure = 10e6}};
+  const auto specimen = small_specimen();
+  const Measured one = alone<2>({own_loading}, specimen, wanted);
+  ASSERT_GT(one.cracks.size(), 20u);
+  expect_same(one, led<2>({own_loading}, specimen, wanted, 2, 20, 3));
+}
+
 TEST(SharedBody, RefusesByNameWhatIsNotSharedYet)
 {
-  const auto specimen = small_specimen();
-  TestParameters heavy = quick();
-  heavy.gravity = {0.0, -9.81};
+  Specimen<2> specimen = small_specimen();
+  specimen.groups_are_rigid = true;
+  specimen.groups.resize(specimen.grains.size());
+  std::iota(specimen.groups.begin(), specimen.groups.end(), 0u);
   ThreadPartners(2).run([&](Partners& partners) {
-    LabTest<2> test({uniaxial_compression}, specimen, heavy, {});
+    LabTest<2> test({uniaxial_compression}, specimen, quick(), {});
     try
       {
         test.share(partners);
@@ -258,7 +316,7 @@ TEST(SharedBody, RefusesByNameWhatIsNotSharedYet)
       }
     catch (const InputError& error)
       {
-        EXPECT_STREQ(error.what(), "a body under gravity cannot be computed by several processes together yet");
+        EXPECT_STREQ(error.what(), "a body of clumps cannot be computed by several processes together yet");
       }
   });
 }

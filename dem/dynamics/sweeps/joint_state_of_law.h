@@ -82,20 +82,31 @@ typename Law::template State<double> segment_state(const Law& law, const Joints<
   return stored_state<dim, Law>(joints, i, j);
 }
 
-/// joint_energy() with the law known.
+/// joint_energy() with the law known. A face that responds as one, linearly, stores half of what its response over the whole way
+/// would take.
 template <int dim, JointLaw<dim> Law>
 double joint_energy(const Law& law, const Joints<dim>& joints, const std::size_t j)
 {
+  const double opening = joints.opening[j];
   std::array<double, n_rotations<dim>> rotation;
   for (int c = 0; c < n_rotations<dim>; ++c)
     rotation[c] = joints.rotation[c][j];
-  const auto energy = [&](const auto& state_of) {
-    return law.stored_energy(joints.face(j), joints.elements, joints.opening[j], rotation, state_of);
-  };
   if constexpr (RespondsAsOne<Law, dim, double>)
     if (is_whole(law, joints, j))
-      return energy([&](const unsigned int i) { return whole_state<dim, Law>(joints, i, j); });
-  return energy([&](const unsigned int i) { return stored_state<dim, Law>(joints, i, j); });
+      {
+        std::array<double, dim - 1> slip;
+        for (int c = 0; c < dim - 1; ++c)
+          slip[c] = joints.slip[c][j];
+        const auto against = Law::whole_response(joints.face(j), joints.whole, opening, rotation, slip);
+        double work = -against.normal_force * opening;
+        for (int c = 0; c < dim - 1; ++c)
+          work -= against.shear_force[c] * slip[c];
+        for (int c = 0; c < n_rotations<dim>; ++c)
+          work -= against.moment[c] * rotation[c];
+        return 0.5 * work;
+      }
+  return law.stored_energy(joints.face(j), joints.elements, opening, rotation,
+                           [&](const unsigned int i) { return stored_state<dim, Law>(joints, i, j); });
 }
 
 /// dissipated_by_bonds() with the law known.

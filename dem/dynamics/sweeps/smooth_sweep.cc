@@ -103,7 +103,18 @@ std::vector<Break> sweep_smooth_joints(Specimen<dim>& body, const double dt)
   std::vector<Break> all;
   for (const auto& of_block : breaks)
     all.insert(all.end(), of_block.begin(), of_block.end());
+  std::ranges::sort(all, {}, [&](const Break& event) { return joints[event.joint - n_others].number; });
   return all;
+}
+
+template <int dim>
+BrokenJoint broken_joint(const Specimen<dim>& body, const Break& event)
+{
+  const auto& joints = body.joints;
+  if (event.joint < joints.size())
+    return {joints.number[event.joint], {joints.grain_1[event.joint], joints.grain_2[event.joint]}, false};
+  const SmoothJoint<dim>& joint = body.smooth_joints[event.joint - joints.size()];
+  return {joint.number, joint.ends(), true};
 }
 
 template <int dim>
@@ -126,13 +137,14 @@ void add_smooth_forces(Specimen<dim>& body)
 }
 
 template <int dim>
-void add_smooth_energies(const Specimen<dim>& body, ExactSum& strain, ExactSum& slip)
+void add_smooth_energies(const Specimen<dim>& body, const GrainRange& these, ExactSum& strain, ExactSum& slip)
 {
   for (const auto& joint : body.smooth_joints)
-    {
-      slip.add(joint.slip_energy);
-      strain.add(joint.stored_energy());
-    }
+    if (these.has(joint.grain_1))
+      {
+        slip.add(joint.slip_energy);
+        strain.add(joint.stored_energy());
+      }
 }
 
 template <int dim>
@@ -162,8 +174,10 @@ template std::vector<Break> sweep_smooth_joints<2>(Specimen<2>&, double);
 template std::vector<Break> sweep_smooth_joints<3>(Specimen<3>&, double);
 template void add_smooth_forces<2>(Specimen<2>&);
 template void add_smooth_forces<3>(Specimen<3>&);
-template void add_smooth_energies<2>(const Specimen<2>&, ExactSum&, ExactSum&);
-template void add_smooth_energies<3>(const Specimen<3>&, ExactSum&, ExactSum&);
+template BrokenJoint broken_joint<2>(const Specimen<2>&, const Break&);
+template BrokenJoint broken_joint<3>(const Specimen<3>&, const Break&);
+template void add_smooth_energies<2>(const Specimen<2>&, const GrainRange&, ExactSum&, ExactSum&);
+template void add_smooth_energies<3>(const Specimen<3>&, const GrainRange&, ExactSum&, ExactSum&);
 template std::vector<EndedSmoothJoint> remove_ended_smooth_joints<2>(Specimen<2>&);
 template std::vector<EndedSmoothJoint> remove_ended_smooth_joints<3>(Specimen<3>&);
 } // namespace feldspar

@@ -4,6 +4,7 @@
 #include "dem/specimen/specimen.h"
 #include "dem/storage/exact_sum.h"
 
+#include <cstdint>
 #include <vector>
 
 /// The sweep over the smooth joints of a specimen; docs/theory.md §1.9.
@@ -15,13 +16,24 @@ namespace feldspar
 template <int dim>
 std::vector<Break> sweep_smooth_joints(Specimen<dim>& body, double dt);
 
+/// The joint of a break, of either kind.
+struct BrokenJoint
+{
+  std::uint32_t number;
+  GrainPair ends;
+  bool is_smooth;
+};
+
+template <int dim>
+BrokenJoint broken_joint(const Specimen<dim>& body, const Break& event);
+
 /// Adds their forces and couples to those of the grains.
 template <int dim>
 void add_smooth_forces(Specimen<dim>& body);
 
-/// Adds what they store and have dissipated.
+/// Adds what those store and have dissipated whose first grain is one of these.
 template <int dim>
-void add_smooth_energies(const Specimen<dim>& body, ExactSum& strain, ExactSum& slip);
+void add_smooth_energies(const Specimen<dim>& body, const GrainRange& these, ExactSum& strain, ExactSum& slip);
 
 /// A smooth joint that has come to its end.
 struct EndedSmoothJoint

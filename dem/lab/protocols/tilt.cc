@@ -76,8 +76,7 @@ SetUpTest<dim> set_up_tilt(Specimen<dim> specimen, double /*confining_pressure*/
   test.loading.sampling_strain = own.sampling_strain;
   // Forces between grains cancel in the sum; what is left is that of the plate.
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
-    const auto& forces = state.specimen().grains.force[0];
-    const double stress = std::accumulate(forces.begin(), forces.end(), 0.0) / area;
+    const double stress = state.sum_of_forces(0) / area;
     return EndStress{stress, stress};
   };
   test.loading.servo_stress = [=](const Dynamics<dim>& state) { return -state.wall_force(plate) / area; };
