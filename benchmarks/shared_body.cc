@@ -2,7 +2,7 @@
 //
 //   mpirun -n RANKS shared_body plane|space BRICKS STEPS THREADS
 //
-// BRICKS: equal periodic packings along each axis that the body is put together from: of some 2 000 discs or 6 200 spheres each.
+// BRICKS: equal periodic packings along each axis that the body is put together from: of some 970 discs or 6 300 spheres each.
 
 #include "base/ranks/communicator.h"
 #include "base/ranks/ranks.h"
@@ -72,7 +72,7 @@ Specimen<dim> body_of(const unsigned int n_bricks)
     {
       wanted.dimension = 3;
       wanted.porosity = 0.37;
-      wanted.width = wanted.height = 0.0265;
+      wanted.width = wanted.height = 0.0292;
     }
   return cored<dim>(repeated<dim>(make_specimen<dim>(wanted, joint, {}, 1), n), BodyShape::box);
 }

@@ -65,7 +65,6 @@ void Dynamics<dim>::keep_own()
     if (part.concerns({joints.grain_1[j], joints.grain_2[j]}))
       kept.push_back(j);
   joints.keep(kept);
-  joints = Joints<dim>(joints); // without the room of those that have gone
   std::erase_if(body.smooth_joints, [&](const SmoothJoint<dim>& joint) { return !part.concerns(joint.ends()); });
   std::vector<Touch<dim>> own_touches;
   std::ranges::copy_if(touches.list(), std::back_inserter(own_touches),
@@ -239,6 +238,7 @@ void Dynamics<dim>::collect()
   std::erase_if(own, [&](const std::size_t j) { return !part.counts(joints.grain_1[j]); });
   const auto of_all = [&](const auto& values) {
     std::vector<std::uint32_t> of_own;
+    of_own.reserve(own.size());
     std::ranges::transform(own, std::back_inserter(of_own), [&](const std::size_t j) { return values[j]; });
     return part.gathered(of_own);
   };
@@ -260,6 +260,7 @@ void Dynamics<dim>::collect()
   std::size_t field = 0;
   joints.visit_all([&](const auto& values) {
     std::vector<double> of_own;
+    of_own.reserve(joints.size() > 0 ? own.size() * (values.size() / joints.size()) : 0);
     for (const std::size_t j : own)
       for (std::size_t i = j; i < values.size(); i += joints.size())
         of_own.push_back(values[i]);

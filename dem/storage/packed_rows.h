@@ -34,6 +34,9 @@ public:
         *at(row, to) = *at(row, kept[to]);
     column_count = kept.size();
     values.resize((column_count + width - 1) / width * width * row_count);
+    constexpr double spared = 0.9; // for a few columns less no table is copied
+    if (double(values.size()) < spared * double(values.capacity()))
+      values.shrink_to_fit();
   }
 
   /// Makes column k what column order[k] was; a permutation of all.
