@@ -105,6 +105,7 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
 {
   std::vector<LaboratoryOrder> tests;
   std::vector<BoardPart> parts;
+  std::string effort;
   bool was_interrupted = false;
   ranks::in_turn([&] {
     try
@@ -112,6 +113,7 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
         const auto specimens = provide_specimens<dim>(plan, folder, progress);
         tests = plan_tests(plan, specimens);
         parts = parts_of(plan, tests, specimens);
+        effort = describe_shared_effort<dim>(tests, plan.variants, specimens, ranks::number());
       }
     catch (const Interrupted&)
       {
@@ -120,6 +122,7 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
   });
   if (ranks::any(was_interrupted))
     throw Interrupted();
+  progress.remark(effort);
   RunBoard board(progress, "tests", parts);
   const auto specimen = [&](const std::size_t k) { return read_specimen<dim>(folder / (plan.orders[k].name + ".h5")); };
   run_shared_tests<dim>(tests, specimen, folder, board);

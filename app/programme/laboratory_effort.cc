@@ -23,7 +23,17 @@ namespace
 // tests, on one and on two threads (benchmarks/load.py has them larger): 542 and 728 bytes of a joint, rounded up. A
 // disc that was kept without states of its grains, after few rows, took 282 bytes.
 constexpr double bytes_of_running_joint(const int dimension) { return dimension == 2 ? 600.0 : 800.0; }
-constexpr double bytes_of_kept_grain(const int dimension) { return dimension == 2 ? 600.0 : 3000.0; }
+
+/// Of a test that has ended; a large body keeps fewer of its states.
+double bytes_of_kept_grain(const int dimension, const double n_grains)
+{
+  const TestParameters usual;
+  const double share = double(usual.snapshots_of(std::size_t(n_grains))) / usual.n_snapshots;
+  return share * (dimension == 2 ? 600.0 : 3000.0);
+}
+
+/// Of one that others compute: its numbers in `Grains`.
+constexpr double bytes_of_held_grain(const int dimension) { return dimension == 2 ? 170.0 : 270.0; }
 constexpr double bytes_of_program = 4e7;
 
 /// Processor time of a joint and step, with the cracks of a test past its peak (benchmarks/README.md): 2 and 5 in 1e-8 s by
@@ -44,7 +54,8 @@ double seconds_of_pictures(const std::size_t n_tests)
 double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints)
 {
   const double at_a_time = std::min(n_tests, double(number_of_threads()));
-  return at_a_time * n_joints * bytes_of_running_joint(dimension) + n_tests * n_grains * bytes_of_kept_grain(dimension);
+  return at_a_time * n_joints * bytes_of_running_joint(dimension) +
+         n_tests * n_grains * bytes_of_kept_grain(dimension, n_grains);
 }
 
 /// Memory of the specimens that stay beside their tests; the only test of a specimen takes it.
@@ -59,6 +70,16 @@ double bytes_of_specimens(const std::vector<LaboratoryOrder>& tests, const std::
     if (n_tests > 1)
       sum += double(specimens[k].grains.size()) * bytes_of_grain(dim);
   return sum;
+}
+
+/// "3 tests of some 20000 steps". Throws InputError for endless ones.
+std::string steps_in_words(const TestEffort& effort)
+{
+  constexpr double most_steps = 1e12; // weeks with a hundred joints
+  if (effort.n_steps > most_steps)
+    throw InputError("Tests: a test would take some {:.0e} steps; a strain rate is far too low", effort.n_steps);
+  return fmt::format("{} of some {:.0f} steps",
+                     effort.n_tests == 1 ? "1 test" : fmt::format("{} tests", effort.n_tests), effort.n_steps);
 }
 } // namespace
 
@@ -98,14 +119,28 @@ std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std
                             const std::span<const Specimen<dim>> specimens)
 {
   const TestEffort effort = expected_effort<dim>(tests, variants, specimens);
-  constexpr double most_steps = 1e12; // weeks with a hundred joints
-  if (effort.n_steps > most_steps)
-    throw InputError("Tests: a test would take some {:.0e} steps; a strain rate is far too low", effort.n_steps);
   const double bytes = bytes_of_program + bytes_of_specimens<dim>(tests, specimens) + effort.bytes;
   const double seconds = effort.seconds + seconds_of_pictures(effort.n_tests) / n_threads_served();
-  return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {} with pictures{}",
-                     effort.n_tests == 1 ? "1 test" : fmt::format("{} tests", effort.n_tests), effort.n_steps,
+  return fmt::format("{}: about {:.0f} MB with specimens and program, {} with pictures{}", steps_in_words(effort),
                      bytes / 1e6, duration_in_words(seconds), load_in_words(effort.bytes));
+}
+
+template <int dim>
+std::string describe_shared_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
+                                   const std::span<const Specimen<dim>> specimens, const unsigned int n_processes)
+{
+  const TestEffort effort = expected_effort<dim>(tests, variants, specimens);
+  double of_grains = 0.0, of_joints = 0.0;
+  for (const LaboratoryOrder& one : tests) // one after the other
+    {
+      const Specimen<dim>& specimen = specimens[one.specimen];
+      of_grains = std::max(of_grains, double(specimen.grains.size()) * bytes_of_held_grain(dim));
+      of_joints = std::max(of_joints, double(specimen.joints.size()) * bytes_of_running_joint(dim));
+    }
+  const double of_each = bytes_of_program + of_grains + of_joints / n_processes;
+  return fmt::format("{} by {} processes together: about {:.0f} MB each, {:.0f} MB of the first for results, {}{}",
+                     steps_in_words(effort), n_processes, of_each / 1e6, (of_each + of_joints) / 1e6,
+                     duration_in_words(effort.seconds / n_processes), load_in_words(n_processes * of_each + of_joints));
 }
 
 void check_memory_of_tests(const RunPlan& plan)
@@ -138,4 +173,6 @@ template decltype(expected_effort<2>) expected_effort<2>;
 template decltype(expected_effort<3>) expected_effort<3>;
 template decltype(describe_effort<2>) describe_effort<2>;
 template decltype(describe_effort<3>) describe_effort<3>;
+template decltype(describe_shared_effort<2>) describe_shared_effort<2>;
+template decltype(describe_shared_effort<3>) describe_shared_effort<3>;
 } // namespace feldspar

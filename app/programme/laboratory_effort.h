@@ -32,6 +32,11 @@ template <int dim>
 std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
                             std::span<const Specimen<dim>> specimens);
 
+/// The same of tests that so many processes make together, each on as many threads.
+template <int dim>
+std::string describe_shared_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
+                                   std::span<const Specimen<dim>> specimens, unsigned int n_processes);
+
 /// Refuses tests that would not fit into the memory that is free before their specimens are made: throws InputError, before any
 /// work.
 void check_memory_of_tests(const RunPlan& plan);

@@ -41,7 +41,11 @@ TEST(SeveralRanks, ThatShareABodyHaveTheBytesOfOneProcessAlsoKilledAndResumedOnA
   folder.write("granite.prm", granite);
   const auto expect_success = [](const tests::Outcome& outcome) { EXPECT_EQ(outcome.exit_code, 0) << outcome.error; };
   expect_success(run_without_pictures(folder.path(), "lab granite.prm --output 1 --quiet"));
-  expect_success(run_feldspar(folder.path(), "lab granite.prm --output 4 --quiet --threads 1", mpirun(4)));
+  const auto of_four = run_feldspar(folder.path(), "lab granite.prm --output 4 --threads 1", mpirun(4));
+  expect_success(of_four);
+  EXPECT_EQ(of_four.error.find("2 tests of some "), of_four.error.rfind("2 tests of some "))
+    << "the first rank says it";
+  EXPECT_NE(of_four.error.find(" steps by 4 processes together: about "), std::string::npos) << of_four.error;
   expect_same_bytes(folder.path() / "1", folder.path() / "4");
 
   // Killed in compression, which is the longer test and comes first.
