@@ -4,7 +4,7 @@
     python3 benchmarks/million_spheres.py BUILD   # writes results/million-spheres-INSTRUCTIONS.json and its table in README.md
     python3 benchmarks/million_spheres.py         # prints it
 
-BUILD: a build folder, of a commit; two processors that do nothing else, a quarter of an hour, and 10 GB of disk. Peak of
+BUILD: a build folder, of a commit; two processors that do nothing else, twenty minutes, and 10 GB of disk. Peak of
 each rank: VmHWM of the kernel; median: of VmRSS, which is read twice a second.
 """
 

@@ -30,8 +30,8 @@ SQUEEZED = {"List": "triaxial_compression", "Confinements": "10 MPa", "Lateral b
 BODIES = {
     "plane": (PLANE, LOADED | {"Compression strain rate": "0.8 1/s", "Tension strain rate": "0.04 1/s"}),
     "plane, membrane": (PLANE, SQUEEZED),
-    "space": (SPACE, LOADED | {"Compression strain rate": "1.5 1/s", "Tension strain rate": "0.08 1/s"}),
-    "space, membrane": (SPACE | {"Dimension": "3"}, SQUEEZED | {"Compression strain rate": "1.5 1/s"}),
+    "space": (SPACE, LOADED | {"Compression strain rate": "2 1/s", "Tension strain rate": "0.3 1/s"}),
+    "space, membrane": (SPACE, SQUEEZED | {"Compression strain rate": "2 1/s"}),
 }
 RUNS = [(ranks, threads) for ranks in (1, 2, 3, 4, 8) for threads in (1, 2)]
 KILLED = [(1, 4), (2, 3), (8, 2)]  # on so many ranks, and resumed on so many
@@ -48,13 +48,13 @@ def finish(process):
         sys.exit(error)
 
 
-def kill_in_longest_test(process, folder, test):
+def kill_in_longest_test(process, ranks, folder, test):
     while not os.path.exists(os.path.join(folder, "checkpoints", test + ".previous.h5")):
         if process.poll() is not None:
             sys.exit(f"{folder} ended before it was killed")
         time.sleep(0.02)
-    ranks = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout.split()
-    for one in ranks or [process.pid]:
+    children = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout.split()
+    for one in children if ranks > 1 else [process.pid]:
         os.kill(int(one), signal.SIGKILL)
     process.communicate()
 
@@ -88,7 +88,7 @@ def of_body(feldspar, folder, specimen, tests):
     for ranks, then in KILLED:
         name = f"killed-{ranks}"
         out = os.path.join(folder, name)
-        kill_in_longest_test(start(feldspar, ranks, 1, ["input.prm", "--output", name], folder), out, longest)
+        kill_in_longest_test(start(feldspar, ranks, 1, ["input.prm", "--output", name], folder), ranks, out, longest)
         finish(start(feldspar, then, 1, ["--resume", name], folder))
         runs.append({"killed_on": ranks, "ranks": then, "threads": 1, "sha256": bytes_of(out)})
         print(runs[-1], flush=True)

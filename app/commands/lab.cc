@@ -67,8 +67,8 @@ template <int dim>
 void share_out_tests(const Run& run, Progress& progress)
 {
   const RunPlan plan(run.input);
-  check_memory_of_tests(plan);
   const bool together = makes_tests_together(plan);
+  check_memory_of_tests(plan, together);
   share_out_specimens<dim>(plan, run.folder, progress);
   if (together)
     {

@@ -113,7 +113,8 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
         const auto specimens = provide_specimens<dim>(plan, folder, progress);
         tests = plan_tests(plan, specimens);
         parts = parts_of(plan, tests, specimens);
-        effort = describe_shared_effort<dim>(tests, plan.variants, specimens, ranks::number());
+        if (ranks::is_first())
+          effort = describe_shared_effort<dim>(tests, plan.variants, specimens);
       }
     catch (const Interrupted&)
       {

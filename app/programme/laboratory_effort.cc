@@ -4,6 +4,7 @@
 #include "app/screen/expected_length.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/ranks/ranks.h"
 #include "base/simd.h"
 #include "base/text.h"
 #include "dem/dynamics/time_step.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <thread>
 
 namespace feldspar
 {
@@ -24,15 +26,16 @@ namespace
 // disc that was kept without states of its grains, after few rows, took 282 bytes.
 constexpr double bytes_of_running_joint(const int dimension) { return dimension == 2 ? 600.0 : 800.0; }
 
-/// Of a test that has ended; a large body keeps fewer of its states.
-double bytes_of_kept_grain(const int dimension, const double n_grains)
+/// Memory of a grain in a state that is kept.
+constexpr double bytes_of_state(const int dimension) { return dimension == 2 ? 10.0 : 80.0; }
+
+/// Memory of a grain of a test that has ended.
+constexpr double bytes_of_kept_grain(const int dimension, const double n_states)
 {
-  const TestParameters usual;
-  const double share = double(usual.snapshots_of(std::size_t(n_grains))) / usual.n_snapshots;
-  return share * (dimension == 2 ? 600.0 : 3000.0);
+  return (dimension == 2 ? 300.0 : 440.0) + n_states * bytes_of_state(dimension);
 }
 
-/// Of one that others compute: its numbers in `Grains`.
+/// Memory of a grain that a process stores, whoever computes it.
 constexpr double bytes_of_held_grain(const int dimension) { return dimension == 2 ? 170.0 : 270.0; }
 constexpr double bytes_of_program = 4e7;
 
@@ -51,11 +54,30 @@ double seconds_of_pictures(const std::size_t n_tests)
   return 1.0 + 0.6 * double(std::min(n_tests, most_pictured));
 }
 
-double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints)
+double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints,
+                      const double n_states)
 {
   const double at_a_time = std::min(n_tests, double(number_of_threads()));
   return at_a_time * n_joints * bytes_of_running_joint(dimension) +
-         n_tests * n_grains * bytes_of_kept_grain(dimension, n_grains);
+         n_tests * n_grains * bytes_of_kept_grain(dimension, n_states);
+}
+
+/// Memory of a body that all processes compute together.
+struct BytesOfShared
+{
+  double each;    ///< of a process
+  double reading; ///< of a process, one at a time of those on a machine
+  double first;   ///< of the first when it stores results
+
+  double of_machine() const { return ranks::number_on_this_machine() * each + std::max(reading, first) - each; }
+};
+
+BytesOfShared bytes_of_shared(const int dimension, const double n_grains, const double n_joints, const double n_states)
+{
+  const double of_grains = bytes_of_program + n_grains * bytes_of_held_grain(dimension);
+  const double of_joints = n_joints * bytes_of_running_joint(dimension);
+  const double each = of_grains + of_joints / ranks::number();
+  return {each, of_grains + of_joints, each + of_joints + n_grains * n_states * bytes_of_state(dimension)};
 }
 
 /// Memory of the specimens that stay beside their tests; the only test of a specimen takes it.
@@ -93,6 +115,7 @@ TestEffort expected_effort(const std::vector<LaboratoryOrder>& tests, const std:
   double seconds = 0.0;
   double most_grains = 0.0;
   double most_joints = 0.0;
+  double most_states = 0.0;
   for (const LaboratoryOrder& one : tests)
     {
       const Specimen<dim>& specimen = specimens[one.specimen];
@@ -107,10 +130,11 @@ TestEffort expected_effort(const std::vector<LaboratoryOrder>& tests, const std:
       seconds += of_one;
       most_grains = std::max(most_grains, double(specimen.grains.size()));
       most_joints = std::max(most_joints, double(specimen.joints.size()));
+      most_states = std::max(most_states, double(one.parameters->snapshots_of(specimen.grains.size())));
     }
   // Threads help each other within a test too.
   effort.seconds = seconds / n_threads_served();
-  effort.bytes = bytes_of_tests(dim, double(tests.size()), most_grains, most_joints);
+  effort.bytes = bytes_of_tests(dim, double(tests.size()), most_grains, most_joints, most_states);
   return effort;
 }
 
@@ -127,40 +151,59 @@ std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std
 
 template <int dim>
 std::string describe_shared_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
-                                   const std::span<const Specimen<dim>> specimens, const unsigned int n_processes)
+                                   const std::span<const Specimen<dim>> specimens)
 {
   const TestEffort effort = expected_effort<dim>(tests, variants, specimens);
-  double of_grains = 0.0, of_joints = 0.0;
-  for (const LaboratoryOrder& one : tests) // one after the other
+  BytesOfShared most{0.0, 0.0, 0.0}; // of the tests, which are made one after the other
+  for (const LaboratoryOrder& one : tests)
     {
-      const Specimen<dim>& specimen = specimens[one.specimen];
-      of_grains = std::max(of_grains, double(specimen.grains.size()) * bytes_of_held_grain(dim));
-      of_joints = std::max(of_joints, double(specimen.joints.size()) * bytes_of_running_joint(dim));
+      const double n_grains = double(specimens[one.specimen].grains.size());
+      const BytesOfShared bytes = bytes_of_shared(dim, n_grains, double(specimens[one.specimen].joints.size()),
+                                                  one.parameters->snapshots_of(std::size_t(n_grains)));
+      if (bytes.first > most.first)
+        most = bytes;
     }
-  const double of_each = bytes_of_program + of_grains + of_joints / n_processes;
-  return fmt::format("{} by {} processes together: about {:.0f} MB each, {:.0f} MB of the first for results, {}{}",
-                     steps_in_words(effort), n_processes, of_each / 1e6, (of_each + of_joints) / 1e6,
-                     duration_in_words(effort.seconds / n_processes), load_in_words(n_processes * of_each + of_joints));
+  const double n_here = ranks::number_on_this_machine();
+  const double of_one_thread = effort.seconds * n_threads_served();
+  const double n_threads = std::min(double(number_of_threads()), std::thread::hardware_concurrency() / n_here);
+  return fmt::format("{} by {} processes together: about {:.0f} MB for each, {:.0f} MB while it reads the specimen and "
+                     "{:.0f} MB for the first when it stores results; {}{}",
+                     steps_in_words(effort), ranks::number(), most.each / 1e6, most.reading / 1e6, most.first / 1e6,
+                     duration_in_words(of_one_thread / (ranks::number() * n_threads)),
+                     load_in_words(most.of_machine()));
 }
 
-void check_memory_of_tests(const RunPlan& plan)
+void check_memory_of_tests(const RunPlan& plan, const bool are_shared)
 {
   double of_specimens = 0.0;
+  double largest_specimen = 0.0;
   double most_grains = 0.0;
   double n_tests = 0.0;
+  unsigned int most_states = 0;
   int dimension = 2;
   for (const SpecimenOrder& order : plan.orders)
     {
       const SpecimenParameters& specimen = plan.input_of(order).specimen;
       const GenesisEffort genesis = expected_effort(specimen);
       of_specimens += genesis.bytes;
+      largest_specimen = std::max(largest_specimen, genesis.bytes);
       most_grains = std::max(most_grains, genesis.n_grains);
       dimension = specimen.dimension;
       for (const std::size_t v : order.variants)
-        n_tests += double(test_cases(plan.variants[v].input.test_list, plan.variants[v].input.confinements).size());
+        {
+          const Input& input = plan.variants[v].input;
+          n_tests += double(test_cases(input.test_list, input.confinements).size());
+          most_states = std::max(most_states, input.tests.snapshots_of(std::size_t(genesis.n_grains)));
+        }
     }
-  const double joints_of_grain = dimension == 2 ? 2.1 : 2.5;
-  const double of_tests = bytes_of_tests(dimension, n_tests, most_grains, joints_of_grain * most_grains);
+  const double most_joints = (dimension == 2 ? 2.1 : 2.5) * most_grains;
+  double of_tests = bytes_of_tests(dimension, n_tests, most_grains, most_joints, most_states);
+  if (are_shared)
+    {
+      of_specimens = 0.0; // each is made before the tests, and read from its file
+      of_tests =
+        std::max(largest_specimen, bytes_of_shared(dimension, most_grains, most_joints, most_states).of_machine());
+    }
   const auto free = free_memory();
   if (free && of_specimens + of_tests > *free)
     throw InputError("Tests: {:.0f} test(s) of {} specimen(s) of some {:.1e} grains need some {:.1f} GB of "

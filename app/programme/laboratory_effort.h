@@ -32,12 +32,12 @@ template <int dim>
 std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
                             std::span<const Specimen<dim>> specimens);
 
-/// The same of tests that so many processes make together, each on as many threads.
+/// Describes the effort of tests that all processes make together.
 template <int dim>
 std::string describe_shared_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
-                                   std::span<const Specimen<dim>> specimens, unsigned int n_processes);
+                                   std::span<const Specimen<dim>> specimens);
 
 /// Refuses tests that would not fit into the memory that is free before their specimens are made: throws InputError, before any
-/// work.
-void check_memory_of_tests(const RunPlan& plan);
+/// work. `are_shared`: all processes make each together.
+void check_memory_of_tests(const RunPlan& plan, bool are_shared = false);
 } // namespace feldspar

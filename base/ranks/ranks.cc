@@ -52,6 +52,14 @@ unsigned int mine()
   return unsigned(rank);
 }
 
+unsigned int number_on_this_machine()
+{
+  int n = 1;
+  if (!is_alone())
+    MPI_Comm_size(of_machine, &n);
+  return unsigned(n);
+}
+
 bool any(const bool here) { return is_alone() ? here : all(here, MPI_MAX) != 0; }
 
 std::uint64_t sum(const std::uint64_t here)
@@ -225,14 +233,11 @@ void together(const std::function<void()>& work)
 void in_turn(const std::function<void()>& work)
 {
   together([&] {
-    int n = 1, own_turn = 0;
+    int own_turn = 0;
     if (!is_alone())
-      {
-        MPI_Comm_size(of_machine, &n);
-        MPI_Comm_rank(of_machine, &own_turn);
-      }
+      MPI_Comm_rank(of_machine, &own_turn);
     std::exception_ptr failure;
-    for (int turn = 0; turn < n; ++turn)
+    for (int turn = 0, n = int(number_on_this_machine()); turn < n; ++turn)
       {
         if (turn == own_turn)
           try

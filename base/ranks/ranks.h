@@ -13,6 +13,7 @@ namespace feldspar::ranks
 {
 unsigned int number(); ///< how many there are
 unsigned int mine();   ///< from 0
+unsigned int number_on_this_machine();
 inline bool is_first() { return mine() == 0; }
 
 /// Returns whether it is true of any rank.

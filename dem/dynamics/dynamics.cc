@@ -338,15 +338,14 @@ Circumstances Dynamics<dim>::circumstances() const
           *std::min_element(body.grains.radius.begin(), body.grains.radius.end())};
 }
 
-/// Of a step on each body, in their order [J].
+/// Returns the work of gravity over a step on all bodies [J].
 template <int dim>
-std::vector<double> Dynamics<dim>::works_of_gravity() const
+double Dynamics<dim>::work_of_gravity() const
 {
-  std::vector<double> works;
-  works.reserve(moved().size());
+  ExactSum work;
   for (std::size_t i = moved().first; i < moved().end; ++i)
-    works.push_back(dt * bodies().mass[i] * gravity.dot(at<dim>(bodies().velocity, i)));
-  return part.gathered(works);
+    work.add(dt * bodies().mass[i] * gravity.dot(at<dim>(bodies().velocity, i)));
+  return part.totals({work})[0];
 }
 
 /// Returns how far a grain has gone at most [m]: infinite in a periodic body, whose images move with the cell too, and with rigid
@@ -358,8 +357,7 @@ double Dynamics<dim>::integrate()
     move_bodies(bodies(), moved(), inverse_inertia, {previous_dt, dt, parameters.damping, gravity}, grips.freedom(),
                 ledger.damping_work);
   if (!gravity.isZero(0.0))
-    for (const double work : works_of_gravity())
-      ledger.boundary_work += work;
+    ledger.boundary_work += work_of_gravity();
   groups.carry_members(body.grains, dt);
   return body.is_periodic() || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
 }

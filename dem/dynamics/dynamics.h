@@ -71,9 +71,10 @@ public:
   void share(Partners& with);
   void meet();
   const BodyShare<dim>& sharing() const { return part; }
-  /// Brings the motions of all grains of a shared body up to date, which otherwise are those of the own ones and their
-  /// neighbours.
+  /// Brings the motions, or the positions alone, of all grains of a shared body up to date, which otherwise are those of the
+  /// own ones and their neighbours.
   void know_all_motions();
+  void know_all_positions();
   /// On the first process: the whole state of a shared body, until drop(), which all call before the next step.
   void collect();
   void drop();
@@ -161,7 +162,7 @@ private:
   void choose_time_step();
   Circumstances circumstances() const;
   double integrate();
-  std::vector<double> works_of_gravity() const;
+  double work_of_gravity() const;
   std::vector<Break> update_contacts(double dt, double farthest_way);
   std::vector<std::vector<double>> works_of_applied_forces(double dt) const;
   std::vector<Break> agree(std::vector<Break> breaks, double dt);

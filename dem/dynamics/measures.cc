@@ -29,12 +29,12 @@ Energies Dynamics<dim>::energies() const
 {
   const auto& grains = bodies();
   const auto& joints = body.joints;
-  const auto [first, end] = moved();
+  const GrainRange own_grains = moved();
   EnergySums sums;
   Energies sum;
   if (steps == 0 && !started)
     {
-      for (std::uint32_t i = first; i < end; ++i)
+      for (std::uint32_t i = own_grains.first; i < own_grains.end; ++i)
         sums.kinetic.add(kinetic_energy(i));
       sum.kinetic = sum.kinetic_at_start = part.totals({sums.kinetic})[0];
       return sum;
@@ -65,9 +65,9 @@ Energies Dynamics<dim>::energies() const
 
   // ½ m v(n-½)·v(n+½), and half of the coming step's damping: the values at the current time.
   const double kick = 0.5 * (previous_dt + dt);
-  for_each_block(end - first, [&](std::size_t, const std::size_t from, const std::size_t to) {
+  for_each_block(own_grains.size(), [&](std::size_t, const std::size_t from, const std::size_t to) {
     EnergySums& own = of_threads.local();
-    for (std::size_t i = first + from; i < first + to; ++i)
+    for (std::size_t i = own_grains.first + from; i < own_grains.first + to; ++i)
       {
         double kinetic = 0.0, damping = ledger.damping_work[i];
         const auto centre = [&](const double force, const double inertia, const double velocity) {

@@ -66,6 +66,7 @@ void Dynamics<dim>::keep_own()
       kept.push_back(j);
   joints.keep(kept);
   std::erase_if(body.smooth_joints, [&](const SmoothJoint<dim>& joint) { return !part.concerns(joint.ends()); });
+  body.smooth_joints.shrink_to_fit();
   std::vector<Touch<dim>> own_touches;
   std::ranges::copy_if(touches.list(), std::back_inserter(own_touches),
                        [&](const Touch<dim>& touch) { return part.concerns(touch.ends()); });
@@ -193,10 +194,16 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
 }
 
 template <int dim>
+void Dynamics<dim>::know_all_positions()
+{
+  part.bring_all(body.grains.position);
+}
+
+template <int dim>
 void Dynamics<dim>::know_all_motions()
 {
   auto& grains = body.grains;
-  part.bring_all(grains.position);
+  know_all_positions();
   part.bring_all(grains.velocity);
   part.bring_all(grains.spin);
 }
@@ -280,8 +287,12 @@ void Dynamics<dim>::collect()
       joints = std::move(whole);
     }
 
-  std::erase_if(body.smooth_joints, [&](const SmoothJoint<dim>& joint) { return !part.counts(joint.grain_1); });
-  body.smooth_joints = part.gathered(body.smooth_joints);
+  std::vector<SmoothJoint<dim>> counted_smooth;
+  std::ranges::copy_if(body.smooth_joints, std::back_inserter(counted_smooth),
+                       [&](const SmoothJoint<dim>& joint) { return part.counts(joint.grain_1); });
+  counted_smooth = part.gathered(counted_smooth);
+  if (part.is_first())
+    body.smooth_joints = std::move(counted_smooth);
   std::vector<Touch<dim>> counted;
   std::ranges::copy_if(touches.list(), std::back_inserter(counted),
                        [&](const Touch<dim>& touch) { return part.counts(touch.grain_1); });
@@ -305,6 +316,8 @@ template std::vector<std::vector<double>> Dynamics<2>::works_of_applied_forces(d
 template std::vector<std::vector<double>> Dynamics<3>::works_of_applied_forces(double) const;
 template std::vector<Break> Dynamics<2>::agree(std::vector<Break>, double);
 template std::vector<Break> Dynamics<3>::agree(std::vector<Break>, double);
+template void Dynamics<2>::know_all_positions();
+template void Dynamics<3>::know_all_positions();
 template void Dynamics<2>::know_all_motions();
 template void Dynamics<3>::know_all_motions();
 template std::vector<std::uint32_t> Dynamics<2>::fragments() const;

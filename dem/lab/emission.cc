@@ -156,7 +156,7 @@ void EmissionWatch<dim>::Source::measure_extent()
 template <int dim>
 bool EmissionWatch<dim>::Source::is_near(const Vector<dim>& place, const double more)
 {
-  constexpr double for_rounding = 1e-9; // of as many breaks in a step as there may be
+  constexpr double for_rounding = 1e-9; // relative; the bounds round once for each break of a step
   const double distance = (place - centre()).norm() - more;
   if (distance <= (1.0 - for_rounding) * farthest[0])
     return true;

@@ -50,8 +50,8 @@ private:
     Moment moment;                 ///< as long as its joint is there [N m]
   };
 
-  /// A running event and its broken segments, which lie in a ball about the mean of their places. A large event would spend its
-  /// time on their distances from it, which all change with each break: bounds of the farthest answer most questions.
+  /// A running event and its broken segments, which lie in a ball about the mean of their places. Their distances from it all
+  /// change with each break. To measure all of them each time would take too long: bounds of the largest decide most cases.
   struct Source
   {
     std::uint64_t event = 0;

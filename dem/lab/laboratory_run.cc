@@ -124,6 +124,8 @@ template <int dim>
 void LabTest<dim>::share(Partners& with)
 {
   set_up.dynamics.share(with);
+  if (!set_up.dynamics.sharing().is_first())
+    std::ranges::fill(snapshots, Snapshot());
 }
 
 template <int dim>
@@ -274,7 +276,7 @@ void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
           loading.drive_stage(dynamics, stage_walk.demand(now));
           step();
           if (stage_walk.needs_lateral_strain())
-            dynamics.know_all_motions();
+            dynamics.know_all_positions();
           now = moment();
         }
       while (!stage_walk.is_at_end_of_stage(now) && !is_due());
@@ -370,12 +372,13 @@ Snapshot LabTest<dim>::snapshot() const
   return now;
 }
 
-/// Takes a snapshot. The length of the curve is not known beforehand: when there are too many snapshots, every second
-/// one is removed. The last one is taken when the test is finished.
+/// Takes a snapshot, which the first process alone keeps. The length of the curve is not known beforehand: when there are too
+/// many snapshots, every second one is removed. The last one is taken when the test is finished.
 template <int dim>
 void LabTest<dim>::take_snapshot()
 {
-  snapshots.push_back(snapshot());
+  Snapshot now = snapshot();
+  snapshots.push_back(set_up.dynamics.sharing().is_first() ? std::move(now) : Snapshot());
   if (snapshots.size() < wanted.snapshots_of(is_part.size()))
     return;
   std::vector<Snapshot> kept;

@@ -28,8 +28,8 @@ void for_each_motion(Grains<dim>& grains, const Visit& visit)
     visit(values);
 }
 
-/// The work of a step on all grains before each, and on all: in units of a grain, and of a joint whose bonds all hold. Contacts
-/// without a face are left out.
+/// The work of a step on all grains before each, and on all: in units of a grain, and of a joint whose bonds all hold. A smooth
+/// joint counts as a broken one; contacts without a face are left out.
 template <int dim>
 std::vector<std::size_t> work_before(const Specimen<dim>& whole)
 {
@@ -38,6 +38,8 @@ std::vector<std::size_t> work_before(const Specimen<dim>& whole)
   std::vector<std::size_t> work(whole.grains.size() + 1, 0);
   for (std::size_t j = 0; j < joints.size(); ++j)
     work[joints.grain_1[j] + 1] += joints.holds_wholly(j) ? 1 : of_broken;
+  for (const SmoothJoint<dim>& joint : whole.smooth_joints)
+    work[joint.grain_1 + 1] += work_of_broken_joint;
   for (std::size_t i = 0; i < whole.grains.size(); ++i)
     work[i + 1] += work[i] + 1;
   return work;

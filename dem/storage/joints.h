@@ -270,6 +270,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
       for (std::size_t to = 0; to < kept.size(); ++to)
         values[to] = values[kept[to]];
       values.resize(kept.size());
+      give_back_room(values);
     });
   }
 

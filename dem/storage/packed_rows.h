@@ -12,6 +12,15 @@
 
 namespace feldspar
 {
+/// Gives back the room of a list beyond its end if that is a tenth or more; for less it is not worth a copy.
+template <typename List>
+void give_back_room(List& list)
+{
+  constexpr double largest_share = 0.9;
+  if (double(list.size()) < largest_share * double(list.capacity()))
+    list.shrink_to_fit();
+}
+
 /// A table of numbers with a column for each of many things, stored `width` columns at a time: all rows of the first ones,
 /// then all rows of the next. Who walks through the columns follows one stream, however many rows there are.
 template <std::size_t width>
@@ -34,9 +43,7 @@ public:
         *at(row, to) = *at(row, kept[to]);
     column_count = kept.size();
     values.resize((column_count + width - 1) / width * width * row_count);
-    constexpr double spared = 0.9; // for a few columns less no table is copied
-    if (double(values.size()) < spared * double(values.capacity()))
-      values.shrink_to_fit();
+    give_back_room(values);
   }
 
   /// Makes column k what column order[k] was; a permutation of all.

@@ -112,8 +112,16 @@ Measured led(const LaboratoryCase& which, const Specimen<dim>& specimen, const T
           test.share(partners);
           test.meet();
         }
+      constexpr std::size_t rows_between_checkpoints = 15;
       while (!test.has_ended() && test.curve().size() < last_row)
-        test.advance();
+        {
+          test.advance();
+          if (test.curve().size() % rows_between_checkpoints == 0)
+            {
+              test.collect();
+              test.drop();
+            }
+        }
       test.collect();
       if (partners.mine() == 0)
         test.write_checkpoint(folder.path() / (resumes ? "end.h5" : "kept.h5"), "it");
@@ -204,7 +212,8 @@ TEST(SharedBody, WithAClosedFlawAndAHoleHasTheBitsOfOneProcess)
   expect_same(one, led<2>({uniaxial_compression}, specimen, quick(), 3, 40, 3));
 }
 
-TEST(SharedBody, WithSmoothJointsHasTheBitsOfOneProcess)
+/// Two bonded smooth joints across a box.
+Specimen<2> box_with_smooth_joints()
 {
   auto specimen = granite_box(0.016, 0.024);
   SmoothSides bonded;
@@ -212,6 +221,34 @@ TEST(SharedBody, WithSmoothJointsHasTheBitsOfOneProcess)
   bonded.cohesion = 6e6;
   put_in_flaws<2>(specimen, {ClosedFlaw{{{0.0, 0.006}, {0.016, 0.018}}, bonded},
                              ClosedFlaw{{{0.004, 0.004}, {0.012, 0.004}}, bonded}});
+  return specimen;
+}
+
+TEST(SharedBody, KeepsItsOwnSmoothJointsAfterTheFirstHadAll)
+{
+  const auto specimen = box_with_smooth_joints();
+  ThreadPartners(3).run([&](Partners& partners) {
+    Dynamics<2> part(specimen, {}, ZeroForce::at_touch);
+    part.share(partners);
+    for (const bool again : {false, true})
+      {
+        part.step();
+        std::size_t n_counted = 0;
+        for (const SmoothJoint<2>& joint : part.specimen().smooth_joints)
+          {
+            EXPECT_TRUE(part.sharing().concerns(joint.ends())) << again;
+            n_counted += part.sharing().counts(joint.grain_1);
+          }
+        EXPECT_EQ(part.sharing().gathered(std::vector(n_counted, 1)).size(), specimen.smooth_joints.size()) << again;
+        part.collect();
+        part.drop();
+      }
+  });
+}
+
+TEST(SharedBody, WithSmoothJointsHasTheBitsOfOneProcess)
+{
+  const auto specimen = box_with_smooth_joints();
   ASSERT_GT(specimen.smooth_joints.size(), 10u);
   const Measured one = alone<2>({uniaxial_compression}, specimen, quick());
   EXPECT_GT(std::ranges::count_if(one.cracks, &Crack::on_smooth_joint), 5);

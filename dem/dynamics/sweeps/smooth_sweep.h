@@ -24,6 +24,7 @@ struct BrokenJoint
   bool is_smooth;
 };
 
+/// Returns the joint that broke.
 template <int dim>
 BrokenJoint broken_joint(const Specimen<dim>& body, const Break& event);
 
