@@ -200,6 +200,16 @@ std::optional<std::size_t> Dynamics<dim>::joint_of(const std::uint32_t grain_1, 
   return std::nullopt;
 }
 
+template <int dim>
+BrokenJoint Dynamics<dim>::joint_of(const Break& event) const
+{
+  const auto& joints = body.joints;
+  if (event.joint < joints.size())
+    return {joints.number[event.joint], {joints.grain_1[event.joint], joints.grain_2[event.joint]}, false};
+  const SmoothJoint<dim>& joint = body.smooth_joints[event.joint - joints.size()];
+  return {joint.number, joint.ends(), true};
+}
+
 /// Makes anew all that knows the places of joints, after some have gone or have other places.
 template <int dim>
 void Dynamics<dim>::index_joints()

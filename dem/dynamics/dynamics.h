@@ -28,6 +28,14 @@
 
 namespace feldspar
 {
+/// The joint of a break, of the law or smooth.
+struct BrokenJoint
+{
+  std::uint32_t number;
+  GrainPair ends;
+  bool is_smooth;
+};
+
 /// Explicit dynamics of a specimen: central differences with velocities at half steps, local non-viscous damping
 /// (Cundall 1987) and contacts that come and go; docs/theory.md §2. One step costs two sweeps, over contacts, with
 /// the sums of their forces, and over grains; sums run in a fixed order, so that results do not depend on the number of
@@ -98,6 +106,8 @@ public:
   const Specimen<dim>& specimen() const { return body; }
   /// Finds the joint of this number by its first grain; none once it has lost its face.
   std::optional<std::size_t> joint_of(std::uint32_t grain_1, std::uint32_t number) const;
+  /// The joint of a break of the last step.
+  BrokenJoint joint_of(const Break& event) const;
   Specimen<dim>& specimen() { return body; }
   const std::vector<Wall>& walls() const { return wall_set.list(); }
 

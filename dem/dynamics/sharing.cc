@@ -2,7 +2,6 @@
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
-#include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/specimen/fragments.h"
 
 #include <algorithm>
@@ -161,7 +160,7 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
           if (part.grains().has(i))
             forces.push_back(body.grains.force[c][i]);
       }
-  std::erase_if(breaks, [&](const Break& event) { return !part.counts(broken_joint(body, event).ends.first); });
+  std::erase_if(breaks, [&](const Break& event) { return !part.counts(joint_of(event).ends.first); });
   terms.push_back({contact_made ? 1.0 : 0.0, double(breaks.size())});
   terms = part.gathered_lists(terms, term_counts);
 
@@ -185,7 +184,7 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
     {
       plain.reserve(breaks.size());
       for (const Break& event : breaks)
-        plain.push_back({broken_joint(body, event).number, event.segment, event.released_energy});
+        plain.push_back({joint_of(event).number, event.segment, event.released_energy});
       plain = part.gathered(plain);
       std::ranges::sort(plain, {}, [](const PlainBreak& one) { return std::pair(one.joint, one.segment); });
     }

@@ -1,6 +1,5 @@
 #include "dem/lab/cracks.h"
 
-#include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/specimen/mineral_sides.h"
 #include "dem/storage/segment_place.h"
 
@@ -19,7 +18,7 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
   result.segment = event.segment;
   result.step = dynamics.n_steps();
   result.axial_strain = axial_strain;
-  const BrokenJoint broken = broken_joint(body, event);
+  const BrokenJoint broken = dynamics.joint_of(event);
   result.joint = broken.number;
   result.on_smooth_joint = broken.is_smooth;
   SegmentPlace<dim> place;
@@ -51,7 +50,7 @@ std::vector<CrackBetween> cracks_of(const Dynamics<dim>& dynamics, const std::ve
   cracks.reserve(breaks.size());
   for (const Break& event : breaks)
     {
-      const auto [one, two] = broken_joint(dynamics.specimen(), event).ends;
+      const auto [one, two] = dynamics.joint_of(event).ends;
       cracks.push_back({crack(dynamics, event, axial_strain), one, two});
     }
   if (dynamics.sharing().is_shared() && dynamics.n_breaks() > 0)

@@ -108,16 +108,6 @@ std::vector<Break> sweep_smooth_joints(Specimen<dim>& body, const double dt)
 }
 
 template <int dim>
-BrokenJoint broken_joint(const Specimen<dim>& body, const Break& event)
-{
-  const auto& joints = body.joints;
-  if (event.joint < joints.size())
-    return {joints.number[event.joint], {joints.grain_1[event.joint], joints.grain_2[event.joint]}, false};
-  const SmoothJoint<dim>& joint = body.smooth_joints[event.joint - joints.size()];
-  return {joint.number, joint.ends(), true};
-}
-
-template <int dim>
 void add_smooth_forces(Specimen<dim>& body)
 {
   auto& grains = body.grains;
@@ -174,8 +164,6 @@ template std::vector<Break> sweep_smooth_joints<2>(Specimen<2>&, double);
 template std::vector<Break> sweep_smooth_joints<3>(Specimen<3>&, double);
 template void add_smooth_forces<2>(Specimen<2>&);
 template void add_smooth_forces<3>(Specimen<3>&);
-template BrokenJoint broken_joint<2>(const Specimen<2>&, const Break&);
-template BrokenJoint broken_joint<3>(const Specimen<3>&, const Break&);
 template void add_smooth_energies<2>(const Specimen<2>&, const GrainRange&, ExactSum&, ExactSum&);
 template void add_smooth_energies<3>(const Specimen<3>&, const GrainRange&, ExactSum&, ExactSum&);
 template std::vector<EndedSmoothJoint> remove_ended_smooth_joints<2>(Specimen<2>&);

@@ -4,7 +4,6 @@
 #include "dem/specimen/specimen.h"
 #include "dem/storage/exact_sum.h"
 
-#include <cstdint>
 #include <vector>
 
 /// The sweep over the smooth joints of a specimen; docs/theory.md §1.9.
@@ -15,18 +14,6 @@ namespace feldspar
 /// of the other joints on.
 template <int dim>
 std::vector<Break> sweep_smooth_joints(Specimen<dim>& body, double dt);
-
-/// The joint of a break, of either kind.
-struct BrokenJoint
-{
-  std::uint32_t number;
-  GrainPair ends;
-  bool is_smooth;
-};
-
-/// Returns the joint that broke.
-template <int dim>
-BrokenJoint broken_joint(const Specimen<dim>& body, const Break& event);
 
 /// Adds their forces and couples to those of the grains.
 template <int dim>
