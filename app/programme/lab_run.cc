@@ -137,7 +137,8 @@ std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<L
 {
   for (const std::string& sentence : entries_without_effect(plan.variants))
     progress.remark(sentence);
-  progress.remark(describe_effort<dim>(tests, plan.variants, specimens));
+  if (ranks::number() == 1 || !makes_tests_together(plan)) // else they have been made
+    progress.remark(describe_effort<dim>(tests, plan.variants, specimens));
   RunBoard board(progress, "tests", parts_of(plan, tests, specimens), tells_failures);
   auto finished_tests = run_tests(tests, specimens, folder, board);
   const auto n_made = std::ranges::count_if(finished_tests, &FinishedTest::was_made);
