@@ -275,7 +275,7 @@ void Dynamics<dim>::collect()
     if (const std::size_t per_joint = n > 0 ? all.size() / n : 0; part.is_first())
       whole.visit_all([&](auto& into) {
         if (its_number++ == field)
-          for (std::size_t k = 0; k < all.size(); ++k)
+          for (std::size_t k = 0; k < per_joint * n; ++k)
             into[k % per_joint * n + k / per_joint] = all[k];
       });
     ++field;
