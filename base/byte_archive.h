@@ -140,6 +140,26 @@ private:
   std::size_t position = 0;
 };
 
+/// Writes nothing: for what is done on the way.
+class NothingWriter
+{
+public:
+  static constexpr bool reads = false;
+
+  template <typename T>
+  void value(const std::string& /*name*/, const T& /*stored*/)
+  {
+  }
+  template <typename T>
+  void array(const std::string& /*name*/, const T& /*values*/)
+  {
+  }
+  template <typename T>
+  void bytes(const std::string& /*name*/, const T& /*values*/)
+  {
+  }
+};
+
 /// A copy is described, because one description serves both ways, and reading changes the state.
 template <typename State>
 std::string to_bytes(State state)

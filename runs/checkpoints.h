@@ -91,8 +91,17 @@ public:
   template <typename Part>
   void write(Part& part) const
   {
+    set_newest_aside();
+    write_newest(part);
+  }
+  void set_newest_aside() const
+  {
     if (std::filesystem::exists(newest))
       std::filesystem::rename(newest, one_before);
+  }
+  template <typename Part>
+  void write_newest(Part& part) const
+  {
     part.write_checkpoint(newest, identity);
   }
 

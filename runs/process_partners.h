@@ -20,6 +20,10 @@ public:
   {
     return ranks::gathered_by_all(own, sizes);
   }
+  std::vector<std::byte> gathered_by_first(const std::span<const std::byte> own) override
+  {
+    return ranks::gathered_by_first(own);
+  }
   void exchange(const std::vector<double>& sent, const std::vector<std::size_t>& first_sent,
                 std::vector<double>& received, const std::vector<std::size_t>& first_received) override
   {

@@ -28,15 +28,9 @@ struct SharedCheckpoints
   void write(LabTest<dim>& test) const
   {
     constexpr double tolerated = 1.1; // for less all would hardly read the body again
-    bool found = false;
-    test.collect();
-    ranks::first([&] {
-      files.write(test);
-      found = test.unevenness() > tolerated;
-    });
-    uneven = ranks::any(found);
-    if (!uneven)
-      test.drop();
+    ranks::first([&] { files.set_newest_aside(); });
+    ranks::together([&] { files.write_newest(test); });
+    uneven = test.unevenness() > tolerated;
   }
 };
 
@@ -45,21 +39,19 @@ void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<
                      const std::filesystem::path& folder, const std::size_t part, RunObserver& observer)
 {
   const Checkpoints checkpoints(folder, order.name, order.identity);
-  const auto begin = [&] {
-    return LabTest<dim>({protocol_of(order.test.kind), order.test.confining_pressure}, specimen(order.specimen),
-                        *order.parameters, *order.dynamics);
-  };
   ProcessesAsPartners partners;
+  const auto begin = [&] {
+    LabTest<dim> test({protocol_of(order.test.kind), order.test.confining_pressure}, specimen(order.specimen),
+                      *order.parameters, *order.dynamics);
+    test.share(partners);
+    return test;
+  };
   std::optional<LabTest<dim>> kept;
   bool uneven = false;
   const auto resume = [&] {
     kept.reset();
     uneven = false;
-    ranks::in_turn([&] {
-      kept.emplace(checkpoints.open(begin, observer));
-      if (!kept->has_ended())
-        kept->share(partners);
-    });
+    ranks::in_turn([&] { kept.emplace(checkpoints.open(begin, observer)); });
     const std::string state = fmt::format("{} {}", kept->n_steps(), kept->has_ended());
     if (ranks::any(state != ranks::of_first(state)))
       throw OutputError(fmt::format("{}: not all processes could read its newest checkpoint", order.name));

@@ -81,6 +81,13 @@ private:
       return all;
     }
 
+    std::vector<std::byte> gathered_by_first(const std::span<const std::byte> own) override
+    {
+      std::vector<std::size_t> sizes;
+      auto all = gathered(own, sizes);
+      return own_number == 0 ? std::move(all) : std::vector<std::byte>();
+    }
+
     void exchange(const std::vector<double>& sent, const std::vector<std::size_t>& first_sent,
                   std::vector<double>& received, const std::vector<std::size_t>& first_received) override
     {

@@ -84,8 +84,9 @@ private:
     for (const TestCase& test : programme)
       of_specimen.push_back({test, &rock.tests, &rock.dynamics});
     const double of_waves = std::sqrt(guess.modulus / input.flat_joint.modulus); // steps are as short as they are fast
-    const double seconds = of_waves * expected_effort<dim>(of_specimen, {{"", rock}}, {&first, 1}).seconds +
-                           expected_effort(input.specimen).seconds / n_threads_served();
+    const double seconds = (of_waves * expected_effort<dim>(of_specimen, {{"", rock}}, {&first, 1}).processor_seconds +
+                            expected_effort(input.specimen).seconds) /
+                           n_threads_served();
     const auto cost = [&](const std::size_t n_specimens) {
       return fmt::format("{} specimens ({})", n_specimens, duration_in_words(seconds * double(n_specimens)));
     };

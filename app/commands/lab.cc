@@ -68,7 +68,7 @@ void share_out_tests(const Run& run, Progress& progress)
 {
   const RunPlan plan(run.input);
   const bool together = makes_tests_together(plan);
-  check_memory_of_tests(plan, together);
+  check_memory_of_tests(plan);
   share_out_specimens<dim>(plan, run.folder, progress);
   if (together)
     {

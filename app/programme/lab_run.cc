@@ -6,6 +6,7 @@
 #include "app/programme/run_board.h"
 #include "app/run/run_record.h"
 #include "app/screen/expected_length.h"
+#include "base/byte_archive.h"
 #include "base/input_error.h"
 #include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
@@ -74,6 +75,13 @@ std::vector<BoardPart> parts_of(const RunPlan& plan, const std::vector<Laborator
 
 namespace
 {
+/// What all processes know of a specimen.
+struct Head
+{
+  std::uint64_t seed;
+  std::size_t n_grains;
+};
+
 bool has_clumps(const Input& input)
 {
   return input.clumps.diameter || input.minerals.form_of_rock() == MineralGrainForm::rigid;
@@ -103,18 +111,16 @@ bool makes_tests_together(const RunPlan& plan)
 template <int dim>
 void run_together(const RunPlan& plan, const std::filesystem::path& folder, Progress& progress)
 {
-  std::vector<LaboratoryOrder> tests;
-  std::vector<BoardPart> parts;
+  std::vector<Head> heads;
   std::string effort;
   bool was_interrupted = false;
-  ranks::in_turn([&] {
+  ranks::first([&] {
     try
       {
         const auto specimens = provide_specimens<dim>(plan, folder, progress);
-        tests = plan_tests(plan, specimens);
-        parts = parts_of(plan, tests, specimens);
-        if (ranks::is_first())
-          effort = describe_shared_effort<dim>(tests, plan.variants, specimens);
+        for (const auto& specimen : specimens)
+          heads.push_back({specimen.seed, specimen.grains.size()});
+        effort = describe_shared_effort<dim>(plan_tests(plan, specimens), plan.variants, specimens);
       }
     catch (const Interrupted&)
       {
@@ -124,7 +130,15 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
   if (ranks::any(was_interrupted))
     throw Interrupted();
   progress.remark(effort);
-  RunBoard board(progress, "tests", parts);
+  std::vector<Specimen<dim>> specimens; // which each process reads when it takes its part of one
+  for (const auto& [seed, n_grains] : values_of<Head>(ranks::of_first(bytes_of(heads))))
+    {
+      Specimen<dim>& specimen = specimens.emplace_back();
+      specimen.seed = seed;
+      specimen.grains.radius.resize(n_grains);
+    }
+  const auto tests = plan_tests(plan, specimens);
+  RunBoard board(progress, "tests", parts_of(plan, tests, specimens));
   const auto specimen = [&](const std::size_t k) { return read_specimen<dim>(folder / (plan.orders[k].name + ".h5")); };
   run_shared_tests<dim>(tests, specimen, folder, board);
   progress.finish(fmt::format("{} by {} processes together", tests.size(), ranks::number()));

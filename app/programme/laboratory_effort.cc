@@ -1,6 +1,7 @@
 #include "app/programme/laboratory_effort.h"
 
 #include "app/programme/genesis_effort.h"
+#include "app/programme/lab_run.h"
 #include "app/screen/expected_length.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
@@ -112,7 +113,6 @@ TestEffort expected_effort(const std::vector<LaboratoryOrder>& tests, const std:
   TestEffort effort;
   effort.n_tests = tests.size();
   std::map<std::size_t, double> stiffest; // over inertia, by specimen
-  double seconds = 0.0;
   double most_grains = 0.0;
   double most_joints = 0.0;
   double most_states = 0.0;
@@ -125,15 +125,12 @@ TestEffort expected_effort(const std::vector<LaboratoryOrder>& tests, const std:
       const double time_step = one.dynamics->time_step_safety / std::sqrt(known->second);
       const double rate = (*protocol_of(one.test.kind).strain_rate)(*one.parameters);
       const double n_steps = expected_last_strain(one.test, variants[one.variant].input) / (rate * time_step);
-      const double of_one = n_steps * double(specimen.joints.size()) * seconds_of_joint_and_step(dim);
       effort.n_steps = std::max(effort.n_steps, n_steps);
-      seconds += of_one;
+      effort.processor_seconds += n_steps * double(specimen.joints.size()) * seconds_of_joint_and_step(dim);
       most_grains = std::max(most_grains, double(specimen.grains.size()));
       most_joints = std::max(most_joints, double(specimen.joints.size()));
       most_states = std::max(most_states, double(one.parameters->snapshots_of(specimen.grains.size())));
     }
-  // Threads help each other within a test too.
-  effort.seconds = seconds / n_threads_served();
   effort.bytes = bytes_of_tests(dim, double(tests.size()), most_grains, most_joints, most_states);
   return effort;
 }
@@ -144,7 +141,8 @@ std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std
 {
   const TestEffort effort = expected_effort<dim>(tests, variants, specimens);
   const double bytes = bytes_of_program + bytes_of_specimens<dim>(tests, specimens) + effort.bytes;
-  const double seconds = effort.seconds + seconds_of_pictures(effort.n_tests) / n_threads_served();
+  const double seconds = // threads help each other within a test too
+    (effort.processor_seconds + seconds_of_pictures(effort.n_tests)) / n_threads_served();
   return fmt::format("{}: about {:.0f} MB with specimens and program, {} with pictures{}", steps_in_words(effort),
                      bytes / 1e6, duration_in_words(seconds), load_in_words(effort.bytes));
 }
@@ -164,19 +162,19 @@ std::string describe_shared_effort(const std::vector<LaboratoryOrder>& tests, co
         most = bytes;
     }
   const double n_here = ranks::number_on_this_machine();
-  const double of_one_thread = effort.seconds * n_threads_served();
   const double n_threads = std::min(double(number_of_threads()), std::thread::hardware_concurrency() / n_here);
   return fmt::format("{} by {} processes together: about {:.0f} MB for each, {:.0f} MB while it reads the specimen and "
                      "{:.0f} MB for the first when it stores results; {}{}",
                      steps_in_words(effort), ranks::number(), most.each / 1e6, most.reading / 1e6, most.first / 1e6,
-                     duration_in_words(of_one_thread / (ranks::number() * n_threads)),
+                     duration_in_words(effort.processor_seconds / (ranks::number() * n_threads)),
                      load_in_words(most.of_machine()));
 }
 
-void check_memory_of_tests(const RunPlan& plan, const bool are_shared)
+void check_memory_of_tests(const RunPlan& plan)
 {
-  double of_specimens = 0.0;
+  double of_genesis = 0.0;
   double largest_specimen = 0.0;
+  double of_kept = 0.0; // specimens beside their tests; the only test of one takes it
   double most_grains = 0.0;
   double n_tests = 0.0;
   unsigned int most_states = 0;
@@ -185,31 +183,33 @@ void check_memory_of_tests(const RunPlan& plan, const bool are_shared)
     {
       const SpecimenParameters& specimen = plan.input_of(order).specimen;
       const GenesisEffort genesis = expected_effort(specimen);
-      of_specimens += genesis.bytes;
-      largest_specimen = std::max(largest_specimen, genesis.bytes);
-      most_grains = std::max(most_grains, genesis.n_grains);
-      dimension = specimen.dimension;
+      double n_tests_of_it = 0.0;
       for (const std::size_t v : order.variants)
         {
           const Input& input = plan.variants[v].input;
-          n_tests += double(test_cases(input.test_list, input.confinements).size());
+          n_tests_of_it += double(test_cases(input.test_list, input.confinements).size());
           most_states = std::max(most_states, input.tests.snapshots_of(std::size_t(genesis.n_grains)));
         }
+      n_tests += n_tests_of_it;
+      of_genesis += genesis.bytes;
+      largest_specimen = std::max(largest_specimen, genesis.bytes);
+      of_kept += n_tests_of_it > 1.0 ? genesis.bytes : 0.0;
+      most_grains = std::max(most_grains, genesis.n_grains);
+      dimension = specimen.dimension;
     }
   const double most_joints = (dimension == 2 ? 2.1 : 2.5) * most_grains;
-  double of_tests = bytes_of_tests(dimension, n_tests, most_grains, most_joints, most_states);
-  if (are_shared)
-    {
-      of_specimens = 0.0; // each is made before the tests, and read from its file
-      of_tests =
-        std::max(largest_specimen, bytes_of_shared(dimension, most_grains, most_joints, most_states).of_machine());
-    }
+  // Of specimens with one test each, all but those whose tests run wait.
+  of_kept = std::max(of_kept, of_genesis - number_of_threads() * largest_specimen);
+  double bytes =
+    std::max(of_genesis, of_kept + bytes_of_tests(dimension, n_tests, most_grains, most_joints, most_states));
+  if (ranks::number() > 1 && makes_tests_together(plan)) // each specimen is made before the tests, and read from its file
+    bytes = std::max(largest_specimen, bytes_of_shared(dimension, most_grains, most_joints, most_states).of_machine());
   const auto free = free_memory();
-  if (free && of_specimens + of_tests > *free)
+  if (free && bytes > *free)
     throw InputError("Tests: {:.0f} test(s) of {} specimen(s) of some {:.1e} grains need some {:.1f} GB of "
                      "memory, and {:.1f} GB are free; make the specimens smaller, the tests or variants "
                      "fewer, or use fewer threads (--threads)",
-                     n_tests, plan.orders.size(), most_grains, (of_specimens + of_tests) / 1e9, *free / 1e9);
+                     n_tests, plan.orders.size(), most_grains, bytes / 1e9, *free / 1e9);
 }
 
 template decltype(expected_effort<2>) expected_effort<2>;

@@ -19,7 +19,7 @@ struct TestEffort
   std::size_t n_tests = 0;
   double n_steps = 0.0; ///< of the longest
   double bytes = 0.0;   ///< of memory: of those that run at the same time, and of the records of all
-  double seconds = 0.0; ///< by the clock, on all threads
+  double processor_seconds = 0.0;
 };
 
 /// `tests`: of these variants on these specimens, by their numbers.
@@ -38,6 +38,6 @@ std::string describe_shared_effort(const std::vector<LaboratoryOrder>& tests, co
                                    std::span<const Specimen<dim>> specimens);
 
 /// Refuses tests that would not fit into the memory that is free before their specimens are made: throws InputError, before any
-/// work. `are_shared`: all processes make each together.
-void check_memory_of_tests(const RunPlan& plan, bool are_shared = false);
+/// work.
+void check_memory_of_tests(const RunPlan& plan);
 } // namespace feldspar

@@ -96,24 +96,29 @@ std::string of_rank(const unsigned int rank, std::string text)
 
 std::string of_first(const std::string& text) { return number() == 1 ? text : of_rank(0, text); }
 
-std::string gathered(const std::string& text)
+namespace
+{
+/// Those of all ranks on the first; nothing on others.
+template <typename Bytes>
+Bytes gathered_on_first(const Bytes& own)
 {
   const unsigned int n = number();
   if (n == 1)
-    return text;
+    return own;
   std::vector<std::uint64_t> sizes(n);
-  const std::uint64_t size = text.size();
+  const std::uint64_t size = own.size();
   MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, of_group);
   // One message a rank, of those that have anything to say: MPI_Gatherv would count all bytes with int.
   constexpr int tag = 1;
   if (!is_first())
     {
       for (std::size_t begin = 0; begin < size; begin += most_at_once)
-        MPI_Send(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, 0, tag, of_group);
+        MPI_Send(own.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, 0, tag, of_group);
       return {};
     }
-  std::string all = text;
+  Bytes all;
   all.reserve(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t(0)));
+  all = own;
   for (unsigned int rank = 1; rank < n; ++rank)
     for (std::size_t left = sizes[rank]; left > 0;)
       {
@@ -123,6 +128,14 @@ std::string gathered(const std::string& text)
         left -= part;
       }
   return all;
+}
+} // namespace
+
+std::string gathered(const std::string& text) { return gathered_on_first(text); }
+
+std::vector<std::byte> gathered_by_first(const std::span<const std::byte> own)
+{
+  return gathered_on_first(std::vector<std::byte>(own.begin(), own.end()));
 }
 
 std::vector<std::byte> gathered_by_all(const std::span<const std::byte> own, std::vector<std::size_t>& sizes)

@@ -28,6 +28,9 @@ std::string of_first(const std::string& text);
 /// The texts of all ranks, one after another by rank, on the first; nothing on others. Any length.
 std::string gathered(const std::string& text);
 
+/// The same of bytes.
+std::vector<std::byte> gathered_by_first(std::span<const std::byte> own);
+
 /// The bytes of all ranks, one after another by rank, on each. `sizes`: how many each gives, where all know that; else empty, and
 /// becomes it.
 std::vector<std::byte> gathered_by_all(std::span<const std::byte> own, std::vector<std::size_t>& sizes);

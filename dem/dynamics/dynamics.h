@@ -72,10 +72,9 @@ public:
   /// work.
   void apply_forces(const Components<dim>& forces);
 
-  /// Keeps the joints and contacts of the own grains alone, to compute the body together with partners, which all have it as it
-  /// stands. Once all have done so, by meet() too, every function that is not const, and every measure, is called by all of
-  /// them at once. Results are the same to the bit for any number of partners. Throws InputError for a body that cannot be
-  /// shared.
+  /// Before the first step: keeps the joints of the own grains alone, to compute the body together with partners, which all have it
+  /// as it stands. Once all have done so, every function that is not const, and every measure, is called by all of them at once.
+  /// Results are the same to the bit for any number of partners. Throws InputError for a body that cannot be shared.
   void share(Partners& with);
   void meet();
   const BodyShare<dim>& sharing() const { return part; }
@@ -83,10 +82,9 @@ public:
   /// own ones and their neighbours.
   void know_all_motions();
   void know_all_positions();
-  /// On the first process: the whole state of a shared body, until drop(), which all call before the next step.
-  void collect();
-  void drop();
-  /// On the first process, after collect(): the largest work of a process over the largest after a new division.
+  /// The same of all numbers of the grains, for transfer().
+  void know_all();
+  /// The largest work of a process over the largest after a new division.
   double unevenness() const { return part.unevenness(body); }
 
   /// Advances by one step and returns what broke in it, of a shared body that which this process counts. Throws Runaway where numbers have gone wrong, which it looks for
@@ -151,7 +149,9 @@ public:
   double faceless_coordination_number() const;
 
   /// All that the next step depends on, for an archive with value(), array() and bytes(); the specimen's sizes, the
-  /// walls and the grips are those of the same test set up anew.
+  /// walls and the grips are those of the same test set up anew. The first process of a shared body writes, after know_all(), what
+  /// all have, and others give theirs to an archive that writes nothing; it may give up, as BodyShare::gathered_by_first() says.
+  /// Each reads its own part, by a new division; meet() before the next step.
   template <typename Archive>
   void transfer(Archive& archive);
 

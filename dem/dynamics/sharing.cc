@@ -38,32 +38,23 @@ void Dynamics<dim>::share(Partners& with)
 {
   if (const std::string what = what_is_not_shared(body); !what.empty())
     throw InputError("{} cannot be computed by several processes together yet", what);
-  part = BodyShare<dim>(with, body);
-  if (!part.is_first())
-    ledger.slip_of_lost_contacts = {};
-  keep_own();
-}
-
-template <int dim>
-void Dynamics<dim>::drop()
-{
-  if (!part.is_shared())
-    return;
-  if (part.is_first())
-    keep_own();
-  meet();
-}
-
-/// Drops what other processes compute.
-template <int dim>
-void Dynamics<dim>::keep_own()
-{
   auto& joints = body.joints;
+  part = BodyShare<dim>(
+    with, work_of_joints<dim>(body.grains.size(), joints.law, joints.grain_1, joints.bonded, body.smooth_joints));
   std::vector<std::size_t> kept;
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (part.concerns({joints.grain_1[j], joints.grain_2[j]}))
       kept.push_back(j);
   joints.keep(kept);
+  keep_own();
+}
+
+/// Drops what other processes compute, the joints of the law apart.
+template <int dim>
+void Dynamics<dim>::keep_own()
+{
+  if (!part.is_first())
+    ledger.slip_of_lost_contacts = {};
   std::erase_if(body.smooth_joints, [&](const SmoothJoint<dim>& joint) { return !part.concerns(joint.ends()); });
   body.smooth_joints.shrink_to_fit();
   std::vector<Touch<dim>> own_touches;
@@ -77,11 +68,6 @@ void Dynamics<dim>::keep_own()
                            [&](const WallTouch<dim>& touch) { return part.counts(touch.grain); });
       wall_set.take(w, std::move(near));
     }
-  if (!started)
-    return;
-  joint_groups = JointGroups<dim>(joints);
-  index_joints();
-  touches.number(images);
 }
 
 template <int dim>
@@ -227,7 +213,7 @@ std::vector<std::uint32_t> Dynamics<dim>::fragments() const
 }
 
 template <int dim>
-void Dynamics<dim>::collect()
+void Dynamics<dim>::know_all()
 {
   if (!part.is_shared())
     return;
@@ -238,77 +224,14 @@ void Dynamics<dim>::collect()
   part.add_up(ledger.slip_of_lost_contacts);
   if (!part.is_first())
     ledger.slip_of_lost_contacts = {};
-
-  auto& joints = body.joints;
-  std::vector<std::size_t> own = joints.by_number();
-  std::erase_if(own, [&](const std::size_t j) { return !part.counts(joints.grain_1[j]); });
-  const auto of_all = [&](const auto& values) {
-    std::vector<std::uint32_t> of_own;
-    of_own.reserve(own.size());
-    std::ranges::transform(own, std::back_inserter(of_own), [&](const std::size_t j) { return values[j]; });
-    return part.gathered(of_own);
-  };
-  auto number = of_all(joints.number), grain_1 = of_all(joints.grain_1), grain_2 = of_all(joints.grain_2);
-  const std::size_t n = number.size();
-  Joints<dim> whole;
-  if (part.is_first())
-    {
-      whole.law = joints.law;
-      whole.divide(joints.division, joints.n_more);
-      whole.thickness = joints.thickness;
-      whole.friction = joints.friction;
-      whole.friction_slope = joints.friction_slope;
-      whole.resize_all(n);
-      whole.number = std::move(number);
-      std::ranges::copy(grain_1, whole.grain_1.begin());
-      std::ranges::copy(grain_2, whole.grain_2.begin());
-    }
-  std::size_t field = 0;
-  joints.visit_all([&](const auto& values) {
-    std::vector<double> of_own;
-    of_own.reserve(joints.size() > 0 ? own.size() * (values.size() / joints.size()) : 0);
-    for (const std::size_t j : own)
-      for (std::size_t i = j; i < values.size(); i += joints.size())
-        of_own.push_back(values[i]);
-    const std::vector<double> all = part.gathered(of_own);
-    std::size_t its_number = 0;
-    if (const std::size_t per_joint = n > 0 ? all.size() / n : 0; part.is_first())
-      whole.visit_all([&](auto& into) {
-        if (its_number++ == field)
-          for (std::size_t k = 0; k < per_joint * n; ++k)
-            into[k % per_joint * n + k / per_joint] = all[k];
-      });
-    ++field;
-  });
-  if (part.is_first())
-    {
-      whole.reorder(whole.by_number());
-      joints = std::move(whole);
-    }
-
-  std::vector<SmoothJoint<dim>> counted_smooth;
-  std::ranges::copy_if(body.smooth_joints, std::back_inserter(counted_smooth),
-                       [&](const SmoothJoint<dim>& joint) { return part.counts(joint.grain_1); });
-  counted_smooth = part.gathered(counted_smooth);
-  if (part.is_first())
-    body.smooth_joints = std::move(counted_smooth);
-  std::vector<Touch<dim>> counted;
-  std::ranges::copy_if(touches.list(), std::back_inserter(counted),
-                       [&](const Touch<dim>& touch) { return part.counts(touch.grain_1); });
-  counted = part.gathered(counted);
-  if (part.is_first())
-    touches.take(std::move(counted));
-  for (std::size_t w = 0; w < wall_set.size(); ++w)
-    if (auto near = part.gathered(wall_set.near(w)); part.is_first())
-      wall_set.take(w, std::move(near));
 }
 
 template void Dynamics<2>::share(Partners&);
 template void Dynamics<3>::share(Partners&);
 template void Dynamics<2>::meet();
 template void Dynamics<3>::meet();
-template void Dynamics<2>::drop();
-template void Dynamics<3>::drop();
+template void Dynamics<2>::keep_own();
+template void Dynamics<3>::keep_own();
 template void Dynamics<2>::agree_on_copies();
 template void Dynamics<3>::agree_on_copies();
 template std::vector<std::vector<double>> Dynamics<2>::works_of_applied_forces(double) const;
@@ -321,6 +244,6 @@ template void Dynamics<2>::know_all_motions();
 template void Dynamics<3>::know_all_motions();
 template std::vector<std::uint32_t> Dynamics<2>::fragments() const;
 template std::vector<std::uint32_t> Dynamics<3>::fragments() const;
-template void Dynamics<2>::collect();
-template void Dynamics<3>::collect();
+template void Dynamics<2>::know_all();
+template void Dynamics<3>::know_all();
 } // namespace feldspar

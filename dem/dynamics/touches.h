@@ -75,13 +75,6 @@ public:
   /// Adds what the contacts store and have dissipated.
   void add_energies(EnergySums& sums, const BodyShare<dim>& share) const;
 
-  /// number() before the next step.
-  template <typename Archive>
-  void transfer(Archive& archive)
-  {
-    archive.bytes("touches", touches);
-  }
-
 private:
   /// Data by which a step finds out whether a pair has come into contact. Most pairs have not; therefore these data are
   /// small and kept together, while a Touch takes several lines of the cache.

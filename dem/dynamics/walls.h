@@ -143,8 +143,6 @@ public:
     archive.array("wall_forces", forces);
     archive.array("wall_position_at_search", position_at_search);
     archive.array("wall_tilt_at_search", tilt_at_search);
-    for (std::size_t w = 0; w < walls.size(); ++w)
-      archive.bytes("wall_touches_" + std::to_string(w), touches[w]);
   }
 
 private:

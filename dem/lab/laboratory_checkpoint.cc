@@ -1,8 +1,11 @@
+#include "base/byte_archive.h"
 #include "base/system/hdf5_archive.h"
+#include "base/whole_file.h"
 #include "dem/lab/laboratory_run.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 /// The state of a running test in a file.
@@ -80,10 +83,29 @@ void transfer_identity(Archive& archive, const std::string& identity)
 template <int dim>
 void LabTest<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity)
 {
-  write_hdf5(file, [&](Hdf5Writer& archive) {
-    transfer_identity(archive, identity);
-    transfer(archive);
-  });
+  auto& dynamics = set_up.dynamics;
+  const BodyShare<dim>& share = dynamics.sharing();
+  dynamics.know_all();
+  if (share.is_first())
+    try
+      {
+        write_hdf5(file, [&](Hdf5Writer& archive) {
+          transfer_identity(archive, identity);
+          transfer(archive);
+        });
+      }
+    catch (...)
+      {
+        share.any(true);
+        throw;
+      }
+  else
+    {
+      NothingWriter nothing;
+      dynamics.transfer(nothing);
+    }
+  if (share.any(false))
+    throw OutputError("the first process could not go on");
 }
 
 template <int dim>
@@ -93,6 +115,8 @@ void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std:
     transfer_identity(archive, identity);
     transfer(archive);
   });
+  if (!set_up.dynamics.sharing().is_first())
+    std::ranges::fill(snapshots, Snapshot());
   start_gauge();
   for (const CurveSample& row : record.curve)
     {

@@ -121,14 +121,6 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const 
 }
 
 template <int dim>
-void LabTest<dim>::share(Partners& with)
-{
-  set_up.dynamics.share(with);
-  if (!set_up.dynamics.sharing().is_first())
-    std::ranges::fill(snapshots, Snapshot());
-}
-
-template <int dim>
 void LabTest<dim>::start_gauge()
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();

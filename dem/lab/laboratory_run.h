@@ -83,10 +83,11 @@ public:
   LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const TestParameters& wanted,
           const DynamicsParameters& dynamics);
 
-  /// Keeps the own part of the body, to run the test together with partners, which all have it as it stands, as
-  /// Dynamics::share(). Throws InputError for a test that cannot be shared.
-  void share(Partners& with);
+  /// Before the first row: keeps the own part of the body, to run the test together with partners, which all have it as it stands,
+  /// as Dynamics::share(). Throws InputError for a test that cannot be shared.
+  void share(Partners& with) { set_up.dynamics.share(with); }
   void meet() { set_up.dynamics.meet(); }
+  double unevenness() const { return set_up.dynamics.unevenness(); }
 
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
   /// the stop rule, after its last stage, or because numbers went wrong, which its record then says. Calls check() at
@@ -110,14 +111,11 @@ public:
   TestOutcome finish(const bool interrupted) const& { return outcome(interrupted, snapshots); }
   TestOutcome finish(const bool interrupted) && { return outcome(interrupted, std::move(snapshots)); }
 
-  /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is. Of a shared test
-  /// the first process writes, after collect() and before drop() by all.
-  void collect() { set_up.dynamics.collect(); }
-  void drop() { set_up.dynamics.drop(); }
-  /// On the first process, between collect() and drop().
-  double unevenness() const { return set_up.dynamics.unevenness(); }
+  /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is. Of a shared test the
+  /// first process writes that of all; throws OutputError on all.
   void write_checkpoint(const std::filesystem::path& file, const std::string& identity);
-  /// Throws InputError where the file is missing, torn, foreign or of another identity; the test is then unusable.
+  /// Throws InputError where the file is missing, torn, foreign or of another identity; the test is then unusable. A shared test is
+  /// divided anew; meet() before it goes on.
   void read_checkpoint(const std::filesystem::path& file, const std::string& identity);
 
 private:

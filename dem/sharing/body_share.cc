@@ -12,7 +12,7 @@ namespace
 {
 template <int dim>
 constexpr std::size_t n_copied = 2 * dim + n_rotations<dim>; // of a grain: position, velocity, spin
-/// Over that of a joint whose bonds all hold, for a law that responds for it as for one. A Xeon with AVX-512 took 2.0 times as long
+/// In units of a joint whose bonds all hold, for a law that responds for it as for one. A Xeon with AVX-512 took 2.0 times as long
 /// for a step of a broken body in the plane and 2.6 times in space, of which grains are a third and a fifth
 /// (benchmarks/dynamics_benchmark.cc, space_benchmark.cc).
 constexpr std::size_t work_of_broken_joint = 3;
@@ -28,20 +28,12 @@ void for_each_motion(Grains<dim>& grains, const Visit& visit)
     visit(values);
 }
 
-/// The work of a step on all grains before each, and on all: in units of a grain, and of a joint whose bonds all hold. A smooth
-/// joint counts as a broken one; contacts without a face are left out.
-template <int dim>
-std::vector<std::size_t> work_before(const Specimen<dim>& whole)
+/// The work of a step on all grains before each, and on all: a grain is as much as a joint whose bonds all hold.
+std::vector<std::size_t> work_before(const std::vector<std::uint32_t>& work_of_joints)
 {
-  const auto& joints = whole.joints;
-  const std::size_t of_broken = responds_as_one<dim>(joints.law) ? work_of_broken_joint : 1;
-  std::vector<std::size_t> work(whole.grains.size() + 1, 0);
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    work[joints.grain_1[j] + 1] += joints.holds_wholly(j) ? 1 : of_broken;
-  for (const SmoothJoint<dim>& joint : whole.smooth_joints)
-    work[joint.grain_1 + 1] += work_of_broken_joint;
-  for (std::size_t i = 0; i < whole.grains.size(); ++i)
-    work[i + 1] += work[i] + 1;
+  std::vector<std::size_t> work(work_of_joints.size() + 1, 0);
+  for (std::size_t i = 0; i < work_of_joints.size(); ++i)
+    work[i + 1] = work[i] + work_of_joints[i] + 1;
   return work;
 }
 
@@ -57,24 +49,49 @@ std::vector<std::uint32_t> divided(const std::vector<std::size_t>& work, const s
 }
 } // namespace
 
-template <int dim>
-double BodyShare<dim>::unevenness(const Specimen<dim>& whole) const
+/// A smooth joint counts as a broken one; contacts without a face are left out.
+template <int dim, typename Bonded>
+std::vector<std::uint32_t> work_of_joints(const std::size_t n_grains, const AnyJointLaw<dim>& law,
+                                          const std::span<const std::uint32_t> grain_1, const Bonded& bonded,
+                                          const std::vector<SmoothJoint<dim>>& smooth_joints)
 {
-  const std::vector<std::size_t> work = work_before(whole);
+  const std::uint32_t of_broken = responds_as_one<dim>(law) ? work_of_broken_joint : 1;
+  std::vector<bool> holds(grain_1.size(), true);
+  for (std::size_t segment = 0; segment < bonded.size(); ++segment)
+    if (!(bonded[segment] > 0.0))
+      holds[segment % grain_1.size()] = false;
+  std::vector<std::uint32_t> work(n_grains, 0);
+  for (std::size_t j = 0; j < grain_1.size(); ++j)
+    work[grain_1[j]] += holds[j] ? 1 : of_broken;
+  for (const SmoothJoint<dim>& joint : smooth_joints)
+    work[joint.grain_1] += work_of_broken_joint;
+  return work;
+}
+
+template <int dim>
+double BodyShare<dim>::unevenness(const Specimen<dim>& own_part) const
+{
+  if (!is_shared())
+    return 1.0;
+  const auto& joints = own_part.joints;
+  const std::vector<std::uint32_t> here =
+    work_of_joints<dim>(own_part.grains.size(), joints.law, joints.grain_1, joints.bonded, own_part.smooth_joints);
+  const std::vector<std::size_t> work =
+    work_before(gathered(std::vector<std::uint32_t>(here.begin() + own.first, here.begin() + own.end)));
   const auto most = [&](const std::vector<std::uint32_t>& division) {
     std::size_t largest = 0;
     for (std::size_t part = 0; part + 1 < division.size(); ++part)
       largest = std::max(largest, work[division[part + 1]] - work[division[part]]);
     return double(largest);
   };
-  return is_shared() ? most(first_of) / most(divided(work, partners->number())) : 1.0;
+  return most(first_of) / most(divided(work, partners->number()));
 }
 
 template <int dim>
-BodyShare<dim>::BodyShare(Partners& with, const Specimen<dim>& whole)
+BodyShare<dim>::BodyShare(Partners& with, const std::vector<std::uint32_t>& of_joints)
   : partners(&with)
   , own{0, 0}
-  , first_of(divided(work_before(whole), with.number()))
+  , first_of(divided(work_before(of_joints), with.number()))
 {
   own = {first_of[with.mine()], first_of[with.mine() + 1]};
 }
@@ -217,4 +234,8 @@ std::vector<double> BodyShare<dim>::totals(std::vector<ExactSum> sums) const
 
 template class BodyShare<2>;
 template class BodyShare<3>;
+template decltype(work_of_joints<2, PackedRow>) work_of_joints<2, PackedRow>;
+template decltype(work_of_joints<3, PackedRow>) work_of_joints<3, PackedRow>;
+template decltype(work_of_joints<2, std::vector<double>>) work_of_joints<2, std::vector<double>>;
+template decltype(work_of_joints<3, std::vector<double>>) work_of_joints<3, std::vector<double>>;
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/whole_file.h"
 #include "dem/sharing/partners.h"
 #include "dem/specimen/specimen.h"
 #include "dem/storage/exact_sum.h"
@@ -11,6 +12,13 @@
 
 namespace feldspar
 {
+/// Work of the joints that each grain is the first of, in units of a joint whose bonds all hold; [n_grains]. `bonded`: of all
+/// segments, as those of Joints.
+template <int dim, typename Bonded>
+std::vector<std::uint32_t> work_of_joints(std::size_t n_grains, const AnyJointLaw<dim>& law,
+                                          std::span<const std::uint32_t> grain_1, const Bonded& bonded,
+                                          const std::vector<SmoothJoint<dim>>& smooth_joints);
+
 /// The part of a body that a process computes, of those that compute it together: a range of its grains, which are its own,
 /// all joints and contacts of these, and copies of the motion of the grains at their other ends. A joint of two owners is
 /// computed by both, from the same motions, so that only motions travel. Every process has all grains by number, and knows of
@@ -23,8 +31,10 @@ public:
     : own{0, std::uint32_t(n_grains)}
   {
   }
-  /// Divides a body into ranges of equal work.
-  BodyShare(Partners& with, const Specimen<dim>& whole);
+  /// Divides a body into ranges of equal work; work_of_joints(): of the joints that each grain is the first of, [n_grains].
+  BodyShare(Partners& with, const std::vector<std::uint32_t>& work_of_joints);
+  /// The same, divided anew.
+  BodyShare divided_by(const std::vector<std::uint32_t>& work_of_joints) const { return {*partners, work_of_joints}; }
 
   bool is_shared() const { return partners != nullptr; }
   /// Returns whether this process speaks for what all know.
@@ -34,7 +44,7 @@ public:
   bool counts(const std::uint32_t grain_1) const { return own.has(grain_1); }
   bool concerns(const GrainPair& pair) const { return own.has(pair.first) || own.has(pair.second); }
   /// The largest work of a process over the largest after a new division, of the body as it is now.
-  double unevenness(const Specimen<dim>& whole) const;
+  double unevenness(const Specimen<dim>& own_part) const;
 
   /// Agrees with the partners on the grains whose motions each needs of others; own ones may be among them. All know the
   /// positions of all.
@@ -66,6 +76,17 @@ public:
   {
     std::vector<std::size_t> counts;
     return gathered(values, counts);
+  }
+  /// The same on the first process, which goes on as long as it has not said any(true) instead; then throws OutputError. Nothing
+  /// on others.
+  template <typename T>
+  std::vector<T> gathered_by_first(const std::vector<T>& values) const
+  {
+    if (!is_shared())
+      return values;
+    if (any(false))
+      throw OutputError("the first process could not go on");
+    return values_of<T>(partners->gathered_by_first(std::as_bytes(std::span(values))));
   }
   /// The same of processes that have as many values each.
   template <typename T>

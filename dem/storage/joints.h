@@ -189,20 +189,6 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     return true;
   }
 
-  /// Visits all numbers of the joints except their grains and own numbers.
-  template <typename Visitor>
-  void visit_all(Visitor&& visit)
-  {
-    visit_per_joint([&](const std::string&, auto& values) { visit(values); });
-    visit(this->further_friction);
-    visit_per_segment([&](const std::string&, auto& values) { visit(values); });
-    for (auto& component : this->force)
-      visit(component);
-    for (auto* couples : {&this->couple_1, &this->couple_2})
-      for (auto& component : *couples)
-        visit(component);
-  }
-
   /// Visits all properties and states of the joints except their grains, numbers, further friction and responses; for code that stores or
   /// permutes joints.
   template <typename Visitor>

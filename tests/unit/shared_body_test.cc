@@ -1,6 +1,8 @@
 // One body that several processes compute together, threads in their place.
 
+#include "base/byte_archive.h"
 #include "base/input_error.h"
+#include "base/whole_file.h"
 #include "dem/flaws/apply.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/bending.h"
@@ -105,27 +107,19 @@ Measured led(const LaboratoryCase& which, const Specimen<dim>& specimen, const T
   const auto lead = [&](const unsigned int n, const bool resumes, const std::size_t last_row) {
     const auto work = [&](Partners& partners) {
       LabTest<dim> test(which, specimen, wanted, {});
+      if (n > 1)
+        test.share(partners);
       if (resumes)
         test.read_checkpoint(folder.path() / "kept.h5", "it");
-      if (n > 1)
-        {
-          test.share(partners);
-          test.meet();
-        }
+      test.meet();
       constexpr std::size_t rows_between_checkpoints = 15;
       while (!test.has_ended() && test.curve().size() < last_row)
         {
           test.advance();
           if (test.curve().size() % rows_between_checkpoints == 0)
-            {
-              test.collect();
-              test.drop();
-            }
+            test.write_checkpoint(folder.path() / "between.h5", "it");
         }
-      test.collect();
-      if (partners.mine() == 0)
-        test.write_checkpoint(folder.path() / (resumes ? "end.h5" : "kept.h5"), "it");
-      test.drop();
+      test.write_checkpoint(folder.path() / (resumes ? "end.h5" : "kept.h5"), "it");
     };
     ThreadPartners(n).run(work);
   };
@@ -224,7 +218,7 @@ Specimen<2> box_with_smooth_joints()
   return specimen;
 }
 
-TEST(SharedBody, KeepsItsOwnSmoothJointsAfterTheFirstHadAll)
+TEST(SharedBody, KeepsItsOwnSmoothJointsWhenTheFirstWritesAll)
 {
   const auto specimen = box_with_smooth_joints();
   ThreadPartners(3).run([&](Partners& partners) {
@@ -240,8 +234,9 @@ TEST(SharedBody, KeepsItsOwnSmoothJointsAfterTheFirstHadAll)
             n_counted += part.sharing().counts(joint.grain_1);
           }
         EXPECT_EQ(part.sharing().gathered(std::vector(n_counted, 1)).size(), specimen.smooth_joints.size()) << again;
-        part.collect();
-        part.drop();
+        part.know_all();
+        NothingWriter nothing;
+        part.transfer(nothing);
       }
   });
 }
@@ -255,12 +250,30 @@ TEST(SharedBody, WithSmoothJointsHasTheBitsOfOneProcess)
   expect_same(one, led<2>({uniaxial_compression}, specimen, quick(), 3, 40, 2));
 }
 
+TEST(SharedBody, ThatCannotBeWrittenIsAnErrorOnAllProcesses)
+{
+  const auto specimen = small_specimen();
+  ThreadPartners(3).run([&](Partners& partners) {
+    LabTest<2> test({direct_tension}, specimen, quick(), {});
+    test.share(partners);
+    test.advance();
+    EXPECT_THROW(test.write_checkpoint("/nowhere/test.h5", "it"), OutputError);
+    EXPECT_TRUE(test.advance()) << "it can go on";
+  });
+}
+
+BodyShare<2> share_of(Partners& partners, const Specimen<2>& body)
+{
+  const auto& joints = body.joints;
+  return {partners, work_of_joints<2>(body.grains.size(), joints.law, joints.grain_1, joints.bonded, {})};
+}
+
 TEST(SharedBody, IsDividedAnewWhereItsBondsHaveBroken)
 {
   const auto specimen = granite_box(0.020, 0.040);
   const std::size_t n_grains = specimen.grains.size();
   ThreadPartners(2).run([&](Partners& partners) {
-    const BodyShare<2> before(partners, specimen);
+    const BodyShare<2> before = share_of(partners, specimen);
     EXPECT_DOUBLE_EQ(before.unevenness(specimen), 1.0);
     Specimen<2> broken = specimen;
     auto& joints = broken.joints;
@@ -270,7 +283,7 @@ TEST(SharedBody, IsDividedAnewWhereItsBondsHaveBroken)
     // With some 2.1 joints a grain the first half is 7.3 / 3.1 times the work of the second; 1.40 times the half of all.
     EXPECT_GT(before.unevenness(broken), 1.3);
     EXPECT_LT(before.unevenness(broken), 1.5);
-    const BodyShare<2> after(partners, broken);
+    const BodyShare<2> after = share_of(partners, broken);
     EXPECT_DOUBLE_EQ(after.unevenness(broken), 1.0);
     EXPECT_EQ(after.grains().size() < before.grains().size(), partners.mine() == 0);
   });
