@@ -35,30 +35,27 @@ TestOutcome failure(const LaboratoryOrder& order, const Specimen<dim>& specimen,
   record.failure = why;
   return outcome;
 }
+
 /// Gives specimens to their tests: copies, and to the last test the grains and joints themselves.
 template <int dim>
 class SpecimensOfTests
 {
 public:
-  SpecimensOfTests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& all)
+  SpecimensOfTests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& all,
+                   const std::function<Specimen<dim>(std::size_t)>& read_again)
     : specimens(all)
+    , again(read_again)
     , n_tests_left(all.size(), 0)
   {
     for (const LaboratoryOrder& order : orders)
       ++n_tests_left[order.specimen];
   }
 
-  /// For a test that may ask again.
-  Specimen<dim> copy(const std::size_t k)
+  Specimen<dim> give(const std::size_t k, const bool for_the_first_time)
   {
     const std::lock_guard lock(one_at_a_time);
-    return specimens[k];
-  }
-
-  /// For a test that does not.
-  Specimen<dim> take(const std::size_t k)
-  {
-    const std::lock_guard lock(one_at_a_time);
+    if (!for_the_first_time)
+      return again(k);
     Specimen<dim>& specimen = specimens[k];
     if (--n_tests_left[k] > 0)
       return specimen;
@@ -72,6 +69,7 @@ public:
 
 private:
   std::vector<Specimen<dim>>& specimens;
+  const std::function<Specimen<dim>(std::size_t)>& again;
   std::vector<std::size_t> n_tests_left;
   std::mutex one_at_a_time;
 };
@@ -126,12 +124,13 @@ TestOutcome run_test(const LaboratoryOrder& order, const std::function<Specimen<
 
 template <int dim>
 std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& specimens,
+                                    const std::function<Specimen<dim>(std::size_t)>& again,
                                     const std::filesystem::path& folder, RunObserver& observer)
 {
   const std::filesystem::path checkpoint_folder = folder / "checkpoints";
   std::filesystem::create_directories(checkpoint_folder);
   const auto sorted = longest_first(orders);
-  SpecimensOfTests<dim> of_tests(orders, specimens);
+  SpecimensOfTests<dim> of_tests(orders, specimens, again);
   std::vector<std::optional<FinishedTest>> slots(orders.size());
   for_each_job(orders.size(), [&](const std::size_t position) {
     const std::size_t k = sorted[position];
@@ -142,8 +141,8 @@ std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders, 
     try
       {
         const Checkpoints checkpoints(checkpoint_folder, order.name, order.identity);
-        const auto specimen = [&, is_new = !checkpoints.exist()] {
-          return is_new ? of_tests.take(order.specimen) : of_tests.copy(order.specimen);
+        const auto specimen = [&, is_first = true]() mutable {
+          return of_tests.give(order.specimen, std::exchange(is_first, false));
         };
         outcome = run_test<dim>(order, specimen, checkpoints, k, observer);
       }

@@ -55,8 +55,10 @@ TestOutcome run_test(const LaboratoryOrder& order, const std::function<Specimen<
 /// Runs tests on the specimens, as many at a time as there are threads, longest first. Each leaves its last two checkpoints
 /// in `folder`/checkpoints, by which a later call takes it up; a test that has ended is not run again. A test that cannot be
 /// made is in the results with its reason. Where the observer wanted the end, tests that had not begun are not. The last test
-/// of a specimen takes its grains and joints, which needs half of the memory of a copy; the rest of it stays.
+/// of a specimen takes its grains and joints, which needs half of the memory of a copy; the rest of it stays. `again`: the
+/// specimen of a number once more, for a test whose checkpoint cannot be used.
 template <int dim>
 std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& specimens,
+                                    const std::function<Specimen<dim>(std::size_t)>& again,
                                     const std::filesystem::path& folder, RunObserver& observer);
 } // namespace feldspar

@@ -75,6 +75,13 @@ std::vector<BoardPart> parts_of(const RunPlan& plan, const std::vector<Laborator
 
 namespace
 {
+/// Reads the specimen of a number from the folder.
+template <int dim>
+std::function<Specimen<dim>(std::size_t)> specimens_in(const RunPlan& plan, const std::filesystem::path& folder)
+{
+  return [&](const std::size_t k) { return read_specimen<dim>(folder / (plan.orders[k].name + ".h5")); };
+}
+
 /// What all processes know of a specimen.
 struct Head
 {
@@ -139,8 +146,7 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
     }
   const auto tests = plan_tests(plan, specimens);
   RunBoard board(progress, "tests", parts_of(plan, tests, specimens));
-  const auto specimen = [&](const std::size_t k) { return read_specimen<dim>(folder / (plan.orders[k].name + ".h5")); };
-  run_shared_tests<dim>(tests, specimen, folder, board);
+  run_shared_tests<dim>(tests, specimens_in<dim>(plan, folder), folder, board);
   progress.finish(fmt::format("{} by {} processes together", tests.size(), ranks::number()));
 }
 
@@ -154,7 +160,7 @@ std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<L
   if (ranks::number() == 1 || !makes_tests_together(plan)) // else they have been made
     progress.remark(describe_effort<dim>(tests, plan.variants, specimens));
   RunBoard board(progress, "tests", parts_of(plan, tests, specimens), tells_failures);
-  auto finished_tests = run_tests(tests, specimens, folder, board);
+  auto finished_tests = run_tests<dim>(tests, specimens, specimens_in<dim>(plan, folder), folder, board);
   const auto n_made = std::ranges::count_if(finished_tests, &FinishedTest::was_made);
   const auto n_failed =
     std::ranges::count_if(finished_tests, [](const FinishedTest& test) { return !test.record.failure.empty(); });

@@ -50,11 +50,13 @@ public:
 
 constexpr std::size_t all_rows = 1000000;
 
+Specimen<2> again(const std::size_t /*number*/) { return small_specimen(1, 0.2); }
+
 std::vector<FinishedTest> run(const std::vector<LaboratoryOrder>& orders, const TemporaryFolder& folder,
                               RunObserver& observer)
 {
   std::vector specimens{small_specimen(1, 0.2)};
-  return run_tests(orders, specimens, folder.path(), observer);
+  return run_tests<2>(orders, specimens, again, folder.path(), observer);
 }
 
 // The end that an observer wants leaves a test that a later run takes up at the row where it stood, to the same bits.
@@ -113,8 +115,8 @@ TEST(Runs, TheLastTestOfASpecimenTakesItsGrains)
   const TemporaryFolder folder, folder_of_one;
   Patience patient(all_rows), patient_with_one(all_rows);
   std::vector specimens{small_specimen(1, 0.2)}, one{small_specimen(1, 0.2)};
-  const auto tests = run_tests(orders, specimens, folder.path(), patient);
-  const auto alone = run_tests({orders.front()}, one, folder_of_one.path(), patient_with_one);
+  const auto tests = run_tests<2>(orders, specimens, again, folder.path(), patient);
+  const auto alone = run_tests<2>({orders.front()}, one, again, folder_of_one.path(), patient_with_one);
   ASSERT_EQ(tests.size(), orders.size());
   for (const FinishedTest& test : tests)
     tests::expect_same_bits({alone.front().record, alone.front().appearance, {}}, {test.record, test.appearance, {}});
