@@ -202,7 +202,8 @@ void check_memory_of_tests(const RunPlan& plan)
   of_kept = std::max(of_kept, of_genesis - number_of_threads() * largest_specimen);
   double bytes =
     std::max(of_genesis, of_kept + bytes_of_tests(dimension, n_tests, most_grains, most_joints, most_states));
-  if (ranks::number() > 1 && makes_tests_together(plan)) // each specimen is made before the tests, and read from its file
+  if (ranks::number() > 1 &&
+      makes_tests_together(plan)) // each specimen is made before the tests, and read from its file
     bytes = std::max(largest_specimen, bytes_of_shared(dimension, most_grains, most_joints, most_states).of_machine());
   const auto free = free_memory();
   if (free && bytes > *free)

@@ -114,8 +114,8 @@ JointColumns<dim> joint_columns(Archive& archive, BodyShare<dim>& share, Specime
           archive.array("bonded", bonded);
           if (bonded.size() != joints.n_segments * grain_1.size())
             throw InputError("bonds are missing");
-          share = share.divided_by(
-            work_of_joints<dim>(body.grains.size(), joints.law, grain_1, bonded, body.smooth_joints));
+          share =
+            share.divided_by(work_of_joints<dim>(body.grains.size(), joints.law, grain_1, bonded, body.smooth_joints));
         }
       std::vector<std::size_t> kept;
       for (std::size_t j = 0; j < grain_1.size(); ++j)
@@ -162,8 +162,8 @@ void Dynamics<dim>::transfer(Archive& archive)
   images.transfer(archive, grains);
   groups.transfer(archive);
 
-  const auto of_joint = [](const auto& joint_or_touch) { return joint_or_touch.grain_1; };
-  transfer_list(archive, "smooth_joints", body.smooth_joints, part, of_joint);
+  const auto first_grain = [](const auto& of_two) { return of_two.grain_1; };
+  transfer_list(archive, "smooth_joints", body.smooth_joints, part, first_grain);
   auto& joints = body.joints;
   const JointColumns<dim> columns = joint_columns(archive, part, body);
   const auto pass = [&](const std::string& name, auto& values) { columns.transfer(archive, name, values); };
@@ -183,8 +183,10 @@ void Dynamics<dim>::transfer(Archive& archive)
   pass_all("joint_couple_1", joints.couple_1);
   pass_all("joint_couple_2", joints.couple_2);
 
-  std::vector<Touch<dim>> near = touches.list();
-  transfer_list(archive, "touches", near, part, of_joint);
+  std::vector<NearPair> near = touches.near_pairs();
+  transfer_list(archive, "near_pairs", near, part, first_grain);
+  std::vector<Touch<dim>> touched = touches.in_order();
+  transfer_list(archive, "touches", touched, part, first_grain);
   wall_set.transfer(archive);
   std::vector<std::vector<WallTouch<dim>>> near_walls(wall_set.size());
   for (std::size_t w = 0; w < wall_set.size(); ++w)
@@ -209,7 +211,10 @@ void Dynamics<dim>::transfer(Archive& archive)
   archive.value("current_time", current_time);
   if constexpr (Archive::reads)
     {
-      touches.take(std::move(near));
+      const auto concerns_others = [&](const auto& pair) { return !part.concerns(pair.ends()); };
+      std::erase_if(near, concerns_others);
+      std::erase_if(touched, concerns_others);
+      touches.take(near, std::move(touched));
       for (std::size_t w = 0; w < wall_set.size(); ++w)
         wall_set.take(w, std::move(near_walls[w]));
       keep_own();

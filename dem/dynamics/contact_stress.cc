@@ -14,8 +14,9 @@ void for_each_other_force(const Specimen<dim>& body, const Touches<dim>& touches
 {
   for (const auto& joint : body.smooth_joints)
     add(Vector<dim>(Eigen::Map<const Vector<dim>>(joint.force.data())), joint.grain_1, joint.grain_2);
-  for (const auto& touch : touches.list())
+  touches.for_each_touch([&](const Touch<dim>& touch) {
     add(Vector<dim>(Eigen::Map<const Vector<dim>>(touch.on_grains.force.data())), touch.grain_1, touch.grain_2);
+  });
 }
 
 /// Calls add(force on grain 2, grain 1, grain 2) for each joint, then for each smooth joint and each contact without a
@@ -162,9 +163,10 @@ double mean_contact_force(const Specimen<dim>& body, const BodyShare<dim>& share
     add(body.joints.grain_1[j], std::sqrt(squared_norm<dim>(body.joints.force, j)));
   for (const auto& joint : body.smooth_joints)
     add(joint.grain_1, Eigen::Map<const Vector<dim>>(joint.force.data()).norm());
-  for (const auto& touch : touches.list())
+  touches.for_each_touch([&](const Touch<dim>& touch) {
     if (touch.touching)
       add(touch.grain_1, std::hypot(touch.normal_force, simd::magnitude(touch.shear_force)));
+  });
   ExactSum n;
   n.add(double(n_contacts));
   const std::vector<double> totals = share.totals({sum, n});

@@ -240,7 +240,7 @@ template <int dim>
 bool Dynamics<dim>::remove_lost_contacts()
 {
   auto& joints = body.joints;
-  const std::size_t n_touches = touches.list().size();
+  const std::size_t n_touches = touches.size();
   std::vector<std::size_t> kept;
   for (std::size_t j = 0; j < joints.size(); ++j)
     {
@@ -248,14 +248,15 @@ bool Dynamics<dim>::remove_lost_contacts()
         kept.push_back(j);
       else
         {
-          Touch<dim> touch = make_touch(body, joints.grain_1[j], joints.grain_2[j]);
-          touch.zero_distance = std::min(touch.zero_distance, joints.rest_distance[j]);
+          NearPair pair = near_pair(body, joints.grain_1[j], joints.grain_2[j]);
+          pair.zero_distance = std::min(pair.zero_distance, joints.rest_distance[j]);
           // The energy that the face stored and the contact does not is released in sliding off.
-          const double overlap = std::max(0.0, touch.zero_distance - joints.rest_distance[j] - joints.opening[j]);
-          if (part.counts(touch.grain_1))
+          const double overlap = std::max(0.0, pair.zero_distance - joints.rest_distance[j] - joints.opening[j]);
+          const double k_n = make_touch(body, pair.grain_1, pair.grain_2).stiffness.normal;
+          if (part.counts(pair.grain_1))
             ledger.slip_of_lost_contacts.add(joints.slip_energy[j] + joint_energy(joints, j) -
-                                             0.5 * touch.stiffness.normal * overlap * overlap);
-          touches.add(touch);
+                                             0.5 * k_n * overlap * overlap);
+          touches.add(pair);
         }
     }
   // Their grains may have rolled into each other while the sides were open: they are in contact from where they stand.
@@ -263,13 +264,13 @@ bool Dynamics<dim>::remove_lost_contacts()
     {
       if (part.counts(ends.first))
         ledger.slip_of_lost_contacts.add(energy);
-      Touch<dim> touch = make_touch(body, ends.first, ends.second);
-      touch.zero_distance =
-        std::min(touch.zero_distance,
+      NearPair pair = near_pair(body, ends.first, ends.second);
+      pair.zero_distance =
+        std::min(pair.zero_distance,
                  (at<dim>(body.grains.position, ends.second) - at<dim>(body.grains.position, ends.first)).norm());
-      touches.add(touch);
+      touches.add(pair);
     }
-  if (touches.list().size() > n_touches)
+  if (touches.size() > n_touches)
     touches.number(images);
   if (kept.size() == joints.size())
     return false;
@@ -379,7 +380,7 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step, const doubl
     body.joints, body.grains, step, sweep_memory,
     {sum_order.blocks_in_a_row, [&](const std::size_t block) { sum_forces_behind(block, body, sum_order); }});
   joint_groups.note(breaks, body.joints);
-  contact_made = touches.update(body.grains, body.particle_contact.friction, step, farthest_way) || contact_made;
+  contact_made = touches.update(body, step, farthest_way) || contact_made;
   sum_remaining_forces(body, sum_order, touches);
   if (!body.smooth_joints.empty())
     {

@@ -213,7 +213,7 @@ void sum_remaining_forces(Specimen<dim>& body, const SumOrder& order, const Touc
     {
       for (const std::uint32_t k : touches.touching())
         {
-          const Touch<dim>& touch = touches.list()[k];
+          const Touch<dim>& touch = touches.touch(k);
           if (order.summed.has(touch.grain_1))
             add_touch(touch, false, touch.grain_1, grains);
           if (const std::uint32_t owner = touches.owner_2(k); order.summed.has(owner))
@@ -226,7 +226,7 @@ void sum_remaining_forces(Specimen<dim>& body, const SumOrder& order, const Touc
     for (std::size_t i = order.summed.first + begin; i < order.summed.first + end; ++i)
       for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
         if (const std::uint32_t entry = touches_of.entries[e]; touches.is_touching(entry / 2))
-          add_touch(touches.list()[entry / 2], entry % 2, std::uint32_t(i), grains);
+          add_touch(touches.touch(entry / 2), entry % 2, std::uint32_t(i), grains);
   });
 }
 

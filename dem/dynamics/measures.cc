@@ -177,8 +177,8 @@ double Dynamics<dim>::force_across(const double height) const
 template <int dim>
 double Dynamics<dim>::faceless_coordination_number() const
 {
-  const auto& all = touches.list();
-  const auto n = std::ranges::count_if(all, &Touch<dim>::touching);
+  std::size_t n = 0;
+  touches.for_each_touch([&](const Touch<dim>& touch) { n += touch.touching ? 1 : 0; });
   return 2.0 * double(n) / double(images.n_own());
 }
 

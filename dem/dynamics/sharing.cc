@@ -49,7 +49,7 @@ void Dynamics<dim>::share(Partners& with)
   keep_own();
 }
 
-/// Drops what other processes compute, the joints of the law apart.
+/// Drops what other processes compute, but for the joints of the law and contacts without a face.
 template <int dim>
 void Dynamics<dim>::keep_own()
 {
@@ -57,10 +57,6 @@ void Dynamics<dim>::keep_own()
     ledger.slip_of_lost_contacts = {};
   std::erase_if(body.smooth_joints, [&](const SmoothJoint<dim>& joint) { return !part.concerns(joint.ends()); });
   body.smooth_joints.shrink_to_fit();
-  std::vector<Touch<dim>> own_touches;
-  std::ranges::copy_if(touches.list(), std::back_inserter(own_touches),
-                       [&](const Touch<dim>& touch) { return part.concerns(touch.ends()); });
-  touches.take(std::move(own_touches));
   for (std::size_t w = 0; w < wall_set.size(); ++w)
     {
       std::vector<WallTouch<dim>> near;
@@ -89,8 +85,8 @@ void Dynamics<dim>::agree_on_copies()
   needed.insert(needed.end(), body.joints.grain_2.begin(), body.joints.grain_2.end());
   for (const SmoothJoint<dim>& joint : body.smooth_joints)
     needed.insert(needed.end(), {joint.grain_1, joint.grain_2});
-  for (const Touch<dim>& touch : touches.list())
-    needed.insert(needed.end(), {touch.grain_1, touch.grain_2});
+  for (const NearPair& pair : touches.near_pairs())
+    needed.insert(needed.end(), {pair.grain_1, pair.grain_2});
   part.agree_on_copies(std::move(needed));
   sweep_memory.known = part.grains();
   sweep_memory.copied = part.copies();

@@ -70,7 +70,7 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
           continue;
         for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
           if (const std::uint32_t entry = touches_of.entries[e]; touches.is_touching(entry / 2))
-            add_touch(touches.list()[entry / 2], entry % 2, i);
+            add_touch(touches.touch(entry / 2), entry % 2, i);
       }
   };
   if (groups.empty())
@@ -80,10 +80,10 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   else // members of one group may be of several blocks
     std::visit([&](const auto& law) { add_contacts(law, 0, own.size()); }, joints.law);
   if (by_touches)
-    for (std::size_t k = 0; k < touches.list().size(); ++k)
+    for (std::size_t k = 0; k < touches.size(); ++k)
       if (touches.is_touching(k))
         {
-          const Touch<dim>& touch = touches.list()[k];
+          const Touch<dim>& touch = touches.touch(k);
           add_touch(touch, false, touch.grain_1);
           add_touch(touch, true, touches.owner_2(k));
         }

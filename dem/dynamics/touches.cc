@@ -19,9 +19,14 @@ Touch<dim> make_touch(const Specimen<dim>& body, const std::uint32_t grain_1, co
   touch.grain_1 = grain_1;
   touch.grain_2 = grain_2;
   touch.stiffness = {k_n, k_n / body.particle_contact.stiffness_ratio};
-  touch.zero_distance = radius_1 + radius_2;
   touch.half_radius_difference = 0.5 * (radius_1 - radius_2);
   return touch;
+}
+
+template <int dim>
+NearPair near_pair(const Specimen<dim>& body, const std::uint32_t grain_1, const std::uint32_t grain_2)
+{
+  return {grain_1, grain_2, body.grains.radius[grain_1] + body.grains.radius[grain_2]};
 }
 
 namespace
@@ -45,8 +50,8 @@ bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
 /// pairs_within() that concern this process, in the same order: of a shared body those of its own grains and the others near
 /// the box around them.
 template <int dim>
-std::vector<GrainPair> pairs_of(const BodyShare<dim>& share, const Grains<dim>& grains, const double skin,
-                                const std::function<void()>& check)
+std::vector<GrainPair> near_each_other(const BodyShare<dim>& share, const Grains<dim>& grains, const double skin,
+                                       const std::function<void()>& check)
 {
   if (!share.is_shared() || share.grains().size() == 0)
     return share.is_shared() ? std::vector<GrainPair>() : pairs_within(grains, skin, check);
@@ -83,28 +88,51 @@ std::vector<GrainPair> pairs_of(const BodyShare<dim>& share, const Grains<dim>& 
 template <int dim>
 auto Touches<dim>::find(const GrainPair& pair) const
 {
-  return std::ranges::lower_bound(touches, pair, {}, &Touch<dim>::ends);
+  return std::ranges::lower_bound(pairs, pair, {}, &NearPair::ends);
 }
 
 template <int dim>
-void Touches<dim>::add(const Touch<dim>& touch)
+void Touches<dim>::add(const NearPair& pair)
 {
-  touches.insert(find(touch.ends()), touch);
+  pairs.insert(find(pair.ends()), Near{pair, pair.grain_2, none, false});
+}
+
+template <int dim>
+std::vector<Touch<dim>> Touches<dim>::in_order() const
+{
+  std::vector<Touch<dim>> result;
+  result.reserve(touches.size());
+  for_each_touch([&](const Touch<dim>& touch) { result.push_back(touch); });
+  return result;
+}
+
+template <int dim>
+void Touches<dim>::take(const std::vector<NearPair>& near, std::vector<Touch<dim>> stored)
+{
+  touches = std::move(stored);
+  pairs.clear();
+  pairs.reserve(near.size());
+  std::uint32_t next = 0;
+  for (const NearPair& pair : near)
+    {
+      const bool has_touch = next < touches.size() && touches[next].ends() == pair.ends();
+      pairs.push_back({pair, pair.grain_2, has_touch ? next : none, has_touch && touches[next].touching});
+      next += has_touch ? 1 : 0;
+    }
 }
 
 template <int dim>
 void Touches<dim>::number(const Images<dim>& images)
 {
-  contacts_of = feldspar::incidence(
-    images.n_own(), touches.size(), [&](const std::size_t k) { return touches[k].ends(); },
+  pairs_of = feldspar::incidence(
+    images.n_own(), pairs.size(), [&](const std::size_t k) { return pairs[k].ends(); },
     [&](const std::uint32_t grain) { return images.owner(grain); });
-  looks.clear();
-  touching_ones.assign(touches.size(), 0);
+  touching_ones.assign(pairs.size(), 0);
   n_touching = 0;
   touching_ones_are_known = false;
   forget_ways();
-  for (const auto& touch : touches)
-    looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, images.owner(touch.grain_2), touch.touching});
+  for (Near& pair : pairs)
+    pair.owner_2 = images.owner(pair.grain_2);
 }
 
 /// All pairs are computed in the next update().
@@ -113,7 +141,7 @@ void Touches<dim>::forget_ways()
 {
   way_gone = 0.0;
   n_updates = 0;
-  apart_until.assign(touches.size(), 0.0);
+  apart_until.assign(pairs.size(), 0.0);
 }
 
 template <int dim>
@@ -123,12 +151,13 @@ void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, 
 {
   const auto& grains = body.grains;
   const auto& joints = body.joints;
-  std::vector<Touch<dim>> found;
+  std::vector<NearPair> found;
+  std::vector<Touch<dim>> stored; // of those of them that have been in contact
   std::vector<std::uint32_t> jointed_to(grains.size(), std::numeric_limits<std::uint32_t>::max());
   std::uint32_t marked = std::numeric_limits<std::uint32_t>::max();
   constexpr std::size_t pairs_between_checks = 100000;
   std::size_t n_checked = 0;
-  for (const auto& [one, two] : pairs_of(share, grains, skin, check))
+  for (const auto& [one, two] : near_each_other(share, grains, skin, check))
     {
       if (n_checked++ % pairs_between_checks == 0)
         check();
@@ -149,32 +178,92 @@ void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, 
       const GrainPair pair(one, two);
       if (never_touch(body, pair))
         continue;
-      if (const auto known = find(pair); known != touches.end() && known->ends() == pair)
-        found.push_back(*known);
+      if (const auto known = find(pair); known != pairs.end() && known->ends() == pair)
+        {
+          found.push_back(*known);
+          if (known->touch != none)
+            stored.push_back(touches[known->touch]);
+        }
       else
         {
-          found.push_back(make_touch(body, one, two));
+          found.push_back(near_pair(body, one, two));
           if (zero_force == ZeroForce::as_placed)
             found.back().zero_distance = std::min(
               found.back().zero_distance, (at<dim>(grains.position, two) - at<dim>(grains.position, one)).norm());
         }
     }
   std::size_t next = 0;
-  for (const auto& touch : touches)
-    {
-      while (next < found.size() && found[next].ends() < touch.ends())
-        ++next;
-      if ((next == found.size() || found[next].ends() != touch.ends()) && share.counts(touch.grain_1))
-        ledger.slip_of_lost_contacts.add(touch.slip_energy);
-    }
-  touches = std::move(found);
+  for_each_touch([&](const Touch<dim>& touch) {
+    while (next < stored.size() && stored[next].ends() < touch.ends())
+      ++next;
+    if ((next == stored.size() || stored[next].ends() != touch.ends()) && share.counts(touch.grain_1))
+      ledger.slip_of_lost_contacts.add(touch.slip_energy);
+  });
+  take(found, std::move(stored));
   check();
   number(images);
 }
 
-template <int dim>
-bool Touches<dim>::update(const Grains<dim>& grains, const double friction, const double dt, const double farthest_way)
+namespace
 {
+/// Carries a pair that presses over a step; `comes`: into contact.
+template <int dim>
+void press(Touch<dim>& touch, const double zero_distance, const Grains<dim>& grains, const double friction,
+           const double dt, const bool comes)
+{
+  std::array<double, dim> centre_1, centre_2;
+  for (int c = 0; c < dim; ++c)
+    {
+      centre_1[c] = grains.position[c][touch.grain_1];
+      centre_2[c] = grains.position[c][touch.grain_2];
+    }
+  std::array<double, dim - 1> slip{};
+  if (!comes && friction > 0.0)
+    {
+      std::array<double, n_rotations<dim>> turn_1, turn_2;
+      for (int c = 0; c < n_rotations<dim>; ++c)
+        {
+          turn_1[c] = dt * grains.spin[c][touch.grain_1];
+          turn_2[c] = dt * grains.spin[c][touch.grain_2];
+        }
+      const auto motion = contact_motion(touch.frame, centre_1, centre_2, touch.half_radius_difference, turn_1, turn_2);
+      touch.frame = motion.frame;
+      slip = motion.slip;
+    }
+  else
+    {
+      touch.frame = contact_frame<dim, double>(centre_1, centre_2);
+      if constexpr (dim == 3)
+        touch.frame.tangent = space::tangent_to(touch.frame.normal);
+    }
+  const auto response = linear_contact::update<dim, double>(touch.stiffness, friction, touch.shear_force,
+                                                            zero_distance - touch.frame.distance, slip);
+  touch.touching = true;
+  touch.normal_force = response.normal_force;
+  touch.shear_force = response.shear_force;
+  touch.slip_energy += response.slip_energy;
+  touch.on_grains = contact_force(touch.frame, touch.half_radius_difference, response.normal_force,
+                                  response.shear_force, std::array<double, n_rotations<dim>>{});
+}
+
+/// Sliding apart dissipates the shear that was stored.
+template <int dim>
+void part(Touch<dim>& touch)
+{
+  for (const double shear : touch.shear_force)
+    touch.slip_energy += 0.5 * shear * shear / touch.stiffness.shear;
+  touch.touching = false;
+  touch.normal_force = 0.0;
+  touch.shear_force = {};
+  touch.on_grains = {};
+}
+} // namespace
+
+template <int dim>
+bool Touches<dim>::update(const Specimen<dim>& body, const double dt, const double farthest_way)
+{
+  const Grains<dim>& grains = body.grains;
+  const double friction = body.particle_contact.friction;
   bool contact_made = false, contact_changed = !touching_ones_are_known;
   // Several threads may say so.
   const auto say = [](bool& what) { std::atomic_ref(what).store(true, std::memory_order_relaxed); };
@@ -182,89 +271,59 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
     forget_ways();
   way_gone += farthest_way;
   const bool way_is_known = std::isfinite(way_gone);
-  for_each_block(touches.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+  for_each_block(pairs.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       {
         if (way_gone < apart_until[k])
           continue;
-        Look& look = looks[k];
-        std::array<double, dim> centre_1, centre_2;
+        Near& pair = pairs[k];
         double squared = 0.0;
         for (int c = 0; c < dim; ++c)
           {
-            centre_1[c] = grains.position[c][look.grain_1];
-            centre_2[c] = grains.position[c][look.grain_2];
-            squared += (centre_2[c] - centre_1[c]) * (centre_2[c] - centre_1[c]);
+            const double between = grains.position[c][pair.grain_2] - grains.position[c][pair.grain_1];
+            squared += between * between;
           }
-        const bool was_touching = look.touching;
-        look.touching = squared < look.zero_distance * look.zero_distance;
-        if (look.touching)
+        const bool was_touching = pair.touching;
+        pair.touching = squared < pair.zero_distance * pair.zero_distance;
+        if (pair.touching)
           apart_until[k] = 0.0;
         else if (way_is_known) // which both may go
-          apart_until[k] = way_gone + 0.5 * (std::sqrt(squared) - (1.0 + share_for_rounding) * look.zero_distance);
-        if (!was_touching && !look.touching)
+          apart_until[k] = way_gone + 0.5 * (std::sqrt(squared) - (1.0 + share_for_rounding) * pair.zero_distance);
+        if (!was_touching && !pair.touching)
           continue; // as it was; most of those that are kept in mind never come into contact
-        if (was_touching != look.touching)
+        if (was_touching != pair.touching)
           say(contact_changed);
-        Touch<dim>& touch = touches[k];
-        touch.touching = look.touching;
-        if (!look.touching)
-          {
-            // Sliding apart dissipates the shear that was stored.
-            for (const double shear : touch.shear_force)
-              touch.slip_energy += 0.5 * shear * shear / touch.stiffness.shear;
-            touch.normal_force = 0.0;
-            touch.shear_force = {};
-            touch.on_grains = {};
-            continue;
-          }
-        std::array<double, dim - 1> slip{};
-        if (was_touching && friction > 0.0)
-          {
-            std::array<double, n_rotations<dim>> turn_1, turn_2;
-            for (int c = 0; c < n_rotations<dim>; ++c)
-              {
-                turn_1[c] = dt * grains.spin[c][touch.grain_1];
-                turn_2[c] = dt * grains.spin[c][touch.grain_2];
-              }
-            const auto motion =
-              contact_motion(touch.frame, centre_1, centre_2, touch.half_radius_difference, turn_1, turn_2);
-            touch.frame = motion.frame;
-            slip = motion.slip;
-          }
-        else
-          {
-            touch.frame = contact_frame<dim, double>(centre_1, centre_2);
-            if constexpr (dim == 3)
-              touch.frame.tangent = space::tangent_to(touch.frame.normal);
-          }
-        const auto response = linear_contact::update<dim, double>(touch.stiffness, friction, touch.shear_force,
-                                                                  touch.zero_distance - touch.frame.distance, slip);
-        if (!was_touching)
+        if (pair.touching && !was_touching)
           say(contact_made);
-        touch.normal_force = response.normal_force;
-        touch.shear_force = response.shear_force;
-        touch.slip_energy += response.slip_energy;
-        touch.on_grains = contact_force(touch.frame, touch.half_radius_difference, response.normal_force,
-                                        response.shear_force, std::array<double, n_rotations<dim>>{});
+        if (pair.touching && pair.touch != none)
+          press(touches[pair.touch], pair.zero_distance, grains, friction, dt, !was_touching);
+        else if (!pair.touching)
+          part(touches[pair.touch]);
       }
   });
   if (!contact_changed)
     return contact_made;
   touching_ones_are_known = true;
   n_touching = 0;
-  for (std::size_t k = 0; k < looks.size(); ++k) // without branches: which are in contact cannot be foretold
+  for (std::size_t k = 0; k < pairs.size(); ++k) // without branches: which are in contact cannot be foretold
     {
       touching_ones[n_touching] = std::uint32_t(k);
-      n_touching += looks[k].touching ? 1 : 0;
+      n_touching += pairs[k].touching ? 1 : 0;
     }
+  for (const std::uint32_t k : touching())
+    if (Near& pair = pairs[k]; pair.touch == none) // for the first time
+      {
+        pair.touch = std::uint32_t(touches.size());
+        touches.push_back(make_touch(body, pair.grain_1, pair.grain_2));
+        press(touches.back(), pair.zero_distance, grains, friction, dt, true);
+      }
   return contact_made;
 }
 
 template <int dim>
 void Touches<dim>::add_energies(EnergySums& sums, const BodyShare<dim>& share) const
 {
-  for (const auto& touch : touches)
+  for (const auto& touch : touches) // exact sums have no order
     if (share.counts(touch.grain_1))
       {
         sums.slip.add(touch.slip_energy);
@@ -276,6 +335,8 @@ void Touches<dim>::add_energies(EnergySums& sums, const BodyShare<dim>& share) c
 
 template Touch<2> make_touch<2>(const Specimen<2>&, std::uint32_t, std::uint32_t);
 template Touch<3> make_touch<3>(const Specimen<3>&, std::uint32_t, std::uint32_t);
+template NearPair near_pair<2>(const Specimen<2>&, std::uint32_t, std::uint32_t);
+template NearPair near_pair<3>(const Specimen<3>&, std::uint32_t, std::uint32_t);
 template class Touches<2>;
 template class Touches<3>;
 } // namespace feldspar

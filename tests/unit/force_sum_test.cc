@@ -42,8 +42,9 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
   Touches<dim> touches;
   EnergyLedger ledger(n_own);
   touches.search(body, images, BodyShare<dim>(n_own), no_joints, skin, ZeroForce::at_touch, ledger, [] {});
-  touches.update(body.grains, friction, 0.0, 0.0);
-  touches.update(body.grains, friction, 1e-3, 0.0);
+  body.particle_contact.friction = friction;
+  touches.update(body, 0.0, 0.0);
+  touches.update(body, 1e-3, 0.0);
   sum_remaining_forces(body, SumOrder(no_joints, 0, {0, std::uint32_t(n_own)}), touches);
 
   Components<dim> force;
@@ -53,11 +54,11 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
   for (auto& values : couple)
     values.assign(n_own, 0.0);
   std::size_t n_across_the_side = 0;
-  for (std::size_t k = 0; k < touches.list().size(); ++k)
+  for (std::size_t k = 0; k < touches.size(); ++k)
     {
       if (!touches.is_touching(k))
         continue;
-      const Touch<dim>& touch = touches.list()[k];
+      const Touch<dim>& touch = touches.touch(k);
       const std::uint32_t second = images.owner(touch.grain_2);
       n_across_the_side += second != touch.grain_2;
       for (int c = 0; c < dim; ++c)

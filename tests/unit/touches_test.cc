@@ -31,6 +31,7 @@ void expect_that_no_touch_is_missed(const std::size_t n_across)
   for (auto& spins : body.grains.spin)
     for (double& spin : spins)
       spin = random.uniform(-1.0, 1.0);
+  body.particle_contact.friction = friction;
   Images<dim> images(body);
   const Incidence no_joints = incidence(
     n, 0, [](std::size_t) { return GrainPair(); }, [](const std::uint32_t grain) { return grain; });
@@ -57,16 +58,16 @@ void expect_that_no_touch_is_missed(const std::size_t n_across)
             }
           farthest = std::max(farthest, std::sqrt(squared_way));
         }
-      const bool came = looked_at.update(body.grains, friction, dt, std::numeric_limits<double>::infinity());
-      EXPECT_EQ(left_out.update(body.grains, friction, dt, farthest), came) << "step " << step;
-      told_wrongly.update(body.grains, friction, dt, 0.0);
+      const bool came = looked_at.update(body, dt, std::numeric_limits<double>::infinity());
+      EXPECT_EQ(left_out.update(body, dt, farthest), came) << "step " << step;
+      told_wrongly.update(body, dt, 0.0);
       n_missed += !std::ranges::equal(told_wrongly.touching(), looked_at.touching());
       n_came += came;
       ASSERT_TRUE(std::ranges::equal(left_out.touching(), looked_at.touching())) << "step " << step;
       for (const std::uint32_t k : looked_at.touching())
         {
-          EXPECT_EQ(left_out.list()[k].on_grains.force, looked_at.list()[k].on_grains.force) << "step " << step;
-          EXPECT_EQ(left_out.list()[k].slip_energy, looked_at.list()[k].slip_energy) << "step " << step;
+          EXPECT_EQ(left_out.touch(k).on_grains.force, looked_at.touch(k).on_grains.force) << "step " << step;
+          EXPECT_EQ(left_out.touch(k).slip_energy, looked_at.touch(k).slip_energy) << "step " << step;
         }
     }
   EXPECT_GT(n_came, 50u);    // they do come and go
