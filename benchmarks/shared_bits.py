@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Bytes of shared bodies: tests by one process beside the same by up to eight, also killed and resumed on another number.
 
-    python3 benchmarks/shared_bits.py build/release    # writes results/shared-bits.json and its table in README.md
-    python3 benchmarks/shared_bits.py                  # prints it
+    python3 benchmarks/shared_bits.py build/release [BODY ...]    # writes results/shared-bits.json and its table in README.md
+    python3 benchmarks/shared_bits.py                             # prints it
 
 Compared are cracks.csv, emission.csv, curves/ and grains/. A run is killed by SIGKILL in its longest test, after the second
-checkpoint. On two processors, which need not be idle, three quarters of an hour.
+checkpoint. On two processors, which need not be idle, an hour for all bodies.
 """
 
 import csv
@@ -20,8 +20,7 @@ import tempfile
 import time
 
 from on_ranks import ENVIRONMENT, launcher
-from readme_table import keep_and_show
-from record import version_of
+from readme_table import study_of_parts
 
 PLANE = {"Width": "50 mm", "Height": "100 mm"}
 SPACE = {"Dimension": "3", "Shape": "cylinder", "Coring": "free sides", "Width": "14 mm", "Height": "28 mm"}
@@ -31,6 +30,7 @@ BODIES = {
     "plane": (PLANE, LOADED | {"Compression strain rate": "0.8 1/s", "Tension strain rate": "0.04 1/s"}),
     "plane, membrane": (PLANE, SQUEEZED),
     "space": (SPACE, LOADED | {"Compression strain rate": "2 1/s", "Tension strain rate": "0.3 1/s"}),
+    "space, membrane": (SPACE, SQUEEZED | {"Compression strain rate": "4 1/s"}),
 }
 RUNS = [(ranks, threads) for ranks in (1, 2, 3, 4, 8) for threads in (1, 2)]
 KILLED = [(1, 4), (2, 3), (8, 2)]  # on so many ranks, and resumed on so many
@@ -95,17 +95,15 @@ def of_body(feldspar, folder, specimen, tests):
     return {"tests": [{key: test[key] for key in keys} for test in made], "runs": runs}
 
 
-def measured(build):
-    result = {"feldspar_version": version_of(build)}
-    for name, (specimen, tests) in BODIES.items():
-        with tempfile.TemporaryDirectory() as folder:
-            result[name] = of_body(os.path.abspath(f"{build}/app/feldspar"), folder, specimen, tests)
-    return result
+def measured(build, body):
+    specimen, tests = BODIES[body]
+    with tempfile.TemporaryDirectory() as folder:
+        return of_body(os.path.abspath(f"{build}/app/feldspar"), folder, specimen, tests)
 
 
 def table(result):
     lines = "| body | grains | test | steps | breaks | runs with the same bytes |\n|---|---|---|---|---|---|\n"
-    for name in BODIES:
+    for name in (name for name in BODIES if name in result):
         runs = [run["sha256"] for run in result[name]["runs"]]
         for test in result[name]["tests"]:
             breaks = int(test["n_tension_cracks"]) + int(test["n_shear_cracks"])
@@ -114,11 +112,4 @@ def table(result):
     return lines
 
 
-def main():
-    if len(sys.argv) > 2:
-        sys.exit(__doc__)
-    keep_and_show("shared", "bits", table, measured(sys.argv[1]) if len(sys.argv) == 2 else None)
-
-
-if __name__ == "__main__":
-    main()
+study_of_parts(__doc__, "shared", BODIES, measured, table, "bits")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """One body on two ranks beside two threads, and a model of more ranks.
 
-    python3 benchmarks/shared_body.py BUILD     # writes results/shared-body-INSTRUCTIONS.json and the tables of README.md
-    python3 benchmarks/shared_body.py           # prints them
+    python3 benchmarks/shared_body.py BUILD [BODY ...]     # writes results/shared-body-INSTRUCTIONS.json and the tables of README.md
+    python3 benchmarks/shared_body.py                      # prints them
 
 BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit; two processors that do nothing else, some minutes. Each is
 the least of its blocks of ten steps, in five runs in turn.
@@ -19,31 +19,27 @@ import subprocess
 import sys
 
 from on_ranks import ENVIRONMENT
-from readme_table import keep_and_show
-from record import compare, version_of
+from readme_table import study_of_parts
 
 BODIES = {"plane": ("15", "200"), "space": ("4", "100")}  # packings along an axis, steps
 WAYS = {"two threads": (1, 2), "two ranks": (2, 1), "one thread": (1, 1)}
 MESSAGE, BYTES_PER_SECOND, BYTES_OF_SPHERE, BYTES_HELD = 2e-6, 10e9, 72, 270
 
 
-def measured(build):
+def measured(build, body):
     program = os.path.join(build, "benchmarks", "shared_body")
-    runs = {body: {way: [] for way in WAYS} for body in BODIES}
+    bricks, steps = BODIES[body]
+    runs = {way: [] for way in WAYS}
     for _ in range(5):
-        for body, (bricks, steps) in BODIES.items():
-            for way, (ranks, threads) in WAYS.items():
-                command = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none", program, body, bricks, steps,
-                           str(threads)]
-                out = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT)
-                runs[body][way].append(json.loads(out.stdout))
-    result = {"feldspar_version": version_of(build), "flags": compare.flags(build), "processor": compare.processor()}
-    for body, of_body in runs.items():
-        works = {run["boundary_work_J"] for ways in of_body.values() for run in ways}
-        if len(works) != 1:
-            sys.exit(f"{body}: the bits differ: {works}")
-        result[body] = {way: min(ways, key=lambda run: run["step_s"]) for way, ways in of_body.items()}
-    return result
+        for way, (ranks, threads) in WAYS.items():
+            command = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none", program, body, bricks, steps,
+                       str(threads)]
+            out = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT)
+            runs[way].append(json.loads(out.stdout))
+    works = {run["boundary_work_J"] for of_way in runs.values() for run in of_way}
+    if len(works) != 1:
+        sys.exit(f"{body}: the bits differ: {works}")
+    return {way: min(of_way, key=lambda run: run["step_s"]) for way, of_way in runs.items()}
 
 
 def model(space, grains, ranks):
@@ -84,13 +80,4 @@ def table(result):
     return "\n".join(lines) + "\n"
 
 
-def main():
-    if len(sys.argv) > 2:
-        sys.exit(__doc__)
-    build = sys.argv[1] if len(sys.argv) == 2 else None
-    keep_and_show("shared-body", "avx512" if build is None else compare.vector_instructions(build), table,
-                  measured(build) if build else None)
-
-
-if __name__ == "__main__":
-    main()
+study_of_parts(__doc__, "shared-body", BODIES, measured, table)

@@ -48,7 +48,7 @@ struct Snapshot
   double axial_stress = 0.0;                   ///< [Pa]
   std::array<std::vector<double>, 3> position; ///< of each grain [m]; the last is empty in the plane
   /// xx, xy, xz, yy, yz, zz of each grain, tension positive [Pa]; it scatters from grain to grain by its own
-  /// size. Empty where it is not known.
+  /// size. Empty where it is not known, as xz, yz and zz in the plane.
   std::array<std::vector<double>, 6> stress;
   /// The same components of the strain of each mineral since the start (docs/theory.md §3.4). Empty where it is not known.
   std::array<std::vector<double>, 6> mineral_strain;

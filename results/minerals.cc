@@ -18,7 +18,7 @@ std::vector<MineralMeans> mineral_means(const TestRecord& record, const Snapshot
         const double own = std::pow(grains[i].radius, record.dimension());
         volume[k] += own;
         for (std::size_t c = 0; c < 6; ++c)
-          means[k].stress[c] += own * snapshot.stress[c][i];
+          means[k].stress[c] += snapshot.stress[c].empty() ? 0.0 : own * snapshot.stress[c][i];
       }
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < means.size(); ++k)

@@ -348,15 +348,14 @@ Snapshot LabTest<dim>::snapshot() const
   now.axial_stress = record.curve.back().axial_stress;
   for (int c = 0; c < dim; ++c)
     now.position[c].assign(specimen.grains.position[c].begin(), specimen.grains.position[c].end());
-  for (auto& component : now.stress)
-    component.reserve(specimen.grains.size());
   for (const Tensor<dim>& stress : set_up.dynamics.grain_stresses())
     {
       const Tensor<dim> symmetric = 0.5 * (stress + stress.transpose());
       std::size_t k = 0;
       for (int a = 0; a < 3; ++a)
         for (int b = a; b < 3; ++b)
-          now.stress[k++].push_back(b < dim ? symmetric(a, b) : 0.0);
+          if (auto& component = now.stress[k++]; b < dim)
+            component.push_back(symmetric(a, b));
     }
   now.mineral_strain = mineral_gauge.strains(specimen);
   now.fragment = set_up.dynamics.fragments();
@@ -429,7 +428,7 @@ TestOutcome LabTest<dim>::outcome(const bool interrupted, std::vector<Snapshot> 
     if (loaded == shots.end() || loaded->stress[0].size() <= i)
       return 0.0;
     const auto& stress = loaded->stress; // xx, xy, xz, yy, yz, zz
-    return (stress[0][i] + stress[3][i] + stress[5][i]) / dim;
+    return (stress[0][i] + stress[3][i] + (dim == 3 ? stress[5][i] : 0.0)) / dim;
   };
   auto& grains = result.appearance.grains_at_end;
   grains.reserve(specimen.grains.size());

@@ -48,9 +48,9 @@ VtkData grains_at(const Snapshot& snapshot, const Points& start, const std::vect
   data.vector("displacement_m", displacement);
   if (snapshot.stress[0].size() == now.size())
     {
-      std::vector<std::array<double, 6>> stress(now.size());
+      std::vector<std::array<double, 6>> stress(now.size(), std::array<double, 6>{});
       for (std::size_t c = 0; c < 6; ++c)
-        for (std::size_t i = 0; i < now.size(); ++i)
+        for (std::size_t i = 0; i < snapshot.stress[c].size(); ++i)
           stress[i][c] = snapshot.stress[c][i];
       data.tensor("stress_Pa", stress);
     }
