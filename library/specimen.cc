@@ -30,8 +30,7 @@ Specimen Specimen::load(const std::string& file, const Check& check)
 {
   return guarded([&] {
     const auto checks = interrupting(check);
-    const unsigned int dimension = dimension_of_specimen(file, checks);
-    return dimension == 2
+    return head_of_specimen(file, checks).dimension == 2
              ? Specimen(std::make_shared<const SpecimenState>(SpecimenState{read_specimen<2>(file, checks)}))
              : Specimen(std::make_shared<const SpecimenState>(SpecimenState{read_specimen<3>(file, checks)}));
   });

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/readable_file.h"
 #include "base/text.h"
+#include "dem/specimen/specimen_file.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,8 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <thread>
 
 namespace feldspar
@@ -30,6 +33,25 @@ double n_lines(const std::string& path)
   while (file.read(piece.data(), piece.size()) || file.gcount() > 0)
     n += double(std::count(piece.data(), piece.data() + file.gcount(), '\n'));
   return n;
+}
+
+/// Number of grains of a specimen file, which is read once. Says nothing about a file that cannot be read, which its reader will
+/// do.
+double n_grains_in(const std::string& file)
+{
+  static std::map<std::string, double> known;
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  const auto [place, is_new] = known.try_emplace(file, 0.0);
+  if (is_new)
+    try
+      {
+        place->second = double(head_of_specimen(file).n_grains);
+      }
+    catch (const InputError&)
+      {
+      }
+  return place->second;
 }
 } // namespace
 
@@ -94,7 +116,10 @@ double bytes_of_grain(const int dimension) { return dimension == 2 ? 1.2e3 : 3.5
 GenesisEffort expected_effort(const SpecimenParameters& specimen)
 {
   if (!specimen.specimen_file.empty())
-    return {}; // it brings its grains
+    {
+      const double n = n_grains_in(specimen.specimen_file); // it brings them
+      return {n, 0.0, n * bytes_of_grain(specimen.dimension), 0.0};
+    }
   if (!specimen.packing_file.empty())
     {
       // Nothing moves. A dense packing has many neighbours: 1180 and 4530 bytes of a grain on lattices in which each has all

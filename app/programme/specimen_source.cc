@@ -111,7 +111,12 @@ std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::set
     }
   check_memory(plan, orders);
   const Input& first = plan.variants.front().input;
-  std::vector<std::string> remarks{describe_effort(plan, orders)};
+  std::vector<SpecimenOrder> made;
+  std::ranges::copy_if(orders, std::back_inserter(made), [&](const SpecimenOrder& order) {
+    return plan.input_of(order).specimen.specimen_file.empty() &&
+           !std::filesystem::exists(folder / (order.name + ".h5"));
+  });
+  std::vector<std::string> remarks{describe_effort(plan, made)};
   append(remarks, unusual_values(plan.variants));
   remarks.push_back(first.flaws.left_out);
   if (!first.settled_by_file.empty())

@@ -2,6 +2,7 @@
 
 #include "app/input/parameter_table.h"
 #include "base/parallel.h"
+#include "base/ranks/ranks.h"
 #include "feldspar_version.h"
 
 #include <algorithm>
@@ -48,6 +49,7 @@ Provenance provenance(const Input& input, const std::filesystem::path& input_fil
       result.input.push_back({std::string(parameter.section), std::string(parameter.entry),
                               as_in_input(parameter.write(input), input.folder)});
   result.processor = processor_name();
+  result.n_processes = ranks::number();
   result.n_threads = unsigned(number_of_threads());
   return result;
 }

@@ -349,16 +349,17 @@ Specimen<dim> read_specimen(const std::filesystem::path& file, const std::functi
   return specimen;
 }
 
-unsigned int dimension_of_specimen(const std::filesystem::path& file, const std::function<void()>& check_now)
+SpecimenHead head_of_specimen(const std::filesystem::path& file, const std::function<void()>& check_now)
 {
-  std::uint32_t dimension = 0;
+  SpecimenHead head{};
   const auto read = [&](Hdf5Reader& root) {
-    root.value("dimension", dimension);
-    if (dimension != 2 && dimension != 3)
+    root.value("dimension", head.dimension);
+    if (head.dimension != 2 && head.dimension != 3)
       throw InputError("a specimen of neither two nor three dimensions");
+    root.subgroup("report").value("n_grains", head.n_grains);
   };
   read_foreign_hdf5(file, "a specimen.h5 of " + in_words(Work::specimen), read, check_now);
-  return dimension;
+  return head;
 }
 
 template decltype(write_specimen<2>) write_specimen<2>;

@@ -2,6 +2,7 @@
 
 #include "dem/specimen/specimen.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 
@@ -21,6 +22,13 @@ template <int dim>
 Specimen<dim> read_specimen(
   const std::filesystem::path& file, const std::function<void()>& check = [] {});
 
-/// The dimension of the specimen in a file, 2 or 3. Throws InputError, and calls `check`, as read_specimen().
-unsigned int dimension_of_specimen(const std::filesystem::path& file, const std::function<void()>& check);
+struct SpecimenHead
+{
+  std::uint32_t dimension; ///< 2 or 3
+  std::uint64_t n_grains;
+};
+
+/// Reads nothing else of a file. Throws InputError, and calls `check`, as read_specimen().
+SpecimenHead head_of_specimen(
+  const std::filesystem::path& file, const std::function<void()>& check = [] {});
 } // namespace feldspar

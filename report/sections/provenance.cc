@@ -21,9 +21,11 @@ std::string sentence_of(const Provenance& made_by)
 {
   const auto or_unknown = [](const std::string& text, const char* unknown) { return text.empty() ? unknown : text; };
   return fmt::format(
-    "Made by feldspar {}{} from {} on {}, {} thread{}.", or_unknown(made_by.version, "of unknown version"),
+    "Made by feldspar {}{} from {} on {}, {}{} thread{}.", or_unknown(made_by.version, "of unknown version"),
     made_by.commit.empty() ? "" : ", commit " + made_by.commit, or_unknown(made_by.input_file, "an unknown input"),
-    or_unknown(made_by.processor, "an unknown processor"), made_by.n_threads, made_by.n_threads == 1 ? "" : "s");
+    or_unknown(made_by.processor, "an unknown processor"),
+    made_by.n_processes > 1 ? fmt::format("{} processes of ", made_by.n_processes) : "", made_by.n_threads,
+    made_by.n_threads == 1 ? "" : "s");
 }
 
 std::string labels_of(const Provenance& made_by)

@@ -50,6 +50,8 @@ nlohmann::ordered_json as_json(const Provenance& provenance)
   for (const auto& entry : provenance.input)
     json["input"]["parameters"][entry.section][entry.entry] = printable(entry.value);
   json["host"]["processor"] = provenance.processor;
+  if (provenance.n_processes > 1)
+    json["host"]["processes"] = provenance.n_processes;
   json["host"]["threads"] = provenance.n_threads;
   return json;
 }
@@ -71,8 +73,12 @@ Provenance read_provenance(const nlohmann::ordered_json& summary)
   if (const auto host = summary.find("host"); host != summary.end() && host->is_object())
     {
       made_by.processor = text_of(*host, "processor");
-      if (const auto threads = host->find("threads"); threads != host->end() && threads->is_number_unsigned())
-        made_by.n_threads = threads->get<unsigned int>();
+      const auto read = [&](const char* const name, unsigned int& number) {
+        if (const auto found = host->find(name); found != host->end() && found->is_number_unsigned())
+          number = found->get<unsigned int>();
+      };
+      read("processes", made_by.n_processes);
+      read("threads", made_by.n_threads);
     }
   return made_by;
 }

@@ -26,7 +26,8 @@ struct Provenance
   std::string input_file;
   std::vector<InputEntry> input;
   std::string processor;
-  unsigned int n_threads = 1;
+  unsigned int n_processes = 1;
+  unsigned int n_threads = 1; ///< of each
 
   /// Value of an entry with its unit; empty where the input is not known or has no such entry.
   std::string value_of(const input_entries::EntryName& wanted) const;

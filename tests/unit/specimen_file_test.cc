@@ -51,6 +51,8 @@ TEST_F(SpecimenFile, ComesBackBitForBit)
   EXPECT_EQ(back.joints.tensile_strength, specimen.joints.tensile_strength);
   EXPECT_EQ(back.joints.friction_slope, specimen.joints.friction_slope);
   EXPECT_EQ(back.report.installation_gap_ratio, specimen.report.installation_gap_ratio);
+  EXPECT_EQ(head_of_specimen(file).dimension, 2u);
+  EXPECT_EQ(head_of_specimen(file).n_grains, specimen.grains.size());
 }
 
 TEST_F(SpecimenFile, RefusesMissingForeignAndTruncatedFiles)
