@@ -1,8 +1,6 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "runs/observer.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -89,7 +88,7 @@ public:
 
   /// Throws OutputError; the one before is then still there.
   template <typename Part>
-  void write(Part& part) const
+  void write(Part&& part) const
   {
     set_newest_aside();
     write_newest(part);
@@ -100,19 +99,23 @@ public:
       std::filesystem::rename(newest, one_before);
   }
   template <typename Part>
-  void write_newest(Part& part) const
+  void write_newest(Part&& part) const
   {
     part.write_checkpoint(newest, identity);
   }
 
-  /// The part as its last good checkpoint has it, else from the start, where `begin` puts it.
-  template <typename Begin>
-  auto open(const Begin& begin, RunObserver& observer) const
+  /// The part as its last good checkpoint has it, else from the start, where `begin` puts it. `tell` as of last_good().
+  template <typename Begin, typename Tell>
+  auto open(const Begin& begin, const Tell& tell) const
   {
     return last_good(
       {newest, one_before}, begin,
-      [&](auto& part, const std::filesystem::path& file) { part.read_checkpoint(file, identity); },
-      [&](const std::string& sentence) { observer.goes_back(sentence); });
+      [&](auto& part, const std::filesystem::path& file) {
+        part.read_checkpoint(file, identity);
+        if (std::error_code ignored; file == one_before) // the newest would take the place of the good one
+          std::filesystem::remove(newest, ignored);
+      },
+      tell);
   }
 
 private:

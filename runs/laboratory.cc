@@ -113,7 +113,7 @@ TestOutcome run_test(const LaboratoryOrder& order, const std::function<Specimen<
     return LabTest<dim>({protocol_of(order.test.kind), order.test.confining_pressure}, specimen(), *order.parameters,
                         *order.dynamics);
   };
-  LabTest<dim> test = checkpoints.open(begin, observer);
+  LabTest<dim> test = checkpoints.open(begin, [&](const std::string& sentence) { observer.goes_back(sentence); });
   lead(test, checkpoints, observer, order.steps_between_checkpoints, [&](const auto& /*keep_if_due*/) {
     return advance(
       test, [&] { observer.end_if_wanted(); }, part, observer);

@@ -34,7 +34,7 @@ FinishedRve<dim> run_path(const PathOrder<dim>& order, const Specimen<dim>& spec
   const auto bounds = stiffness_bounds(specimen, order.turn);
   const Checkpoints checkpoints(checkpoint_folder, order.name, order.identity);
   const auto go = [&](const auto& begin) -> FinishedRve<dim> {
-    auto run = checkpoints.open(begin, observer);
+    auto run = checkpoints.open(begin, [&](const std::string& sentence) { observer.goes_back(sentence); });
     lead(run, checkpoints, observer, 0, [&](const auto& /*keep_if_due*/) {
       if constexpr (std::same_as<decltype(run), PathRun<dim>>)
         try

@@ -34,9 +34,17 @@ struct SharedCheckpoints
   }
 };
 
+/// How the leading of a test ended.
+enum class End
+{
+  interrupted,
+  failed,
+  made
+};
+
 template <int dim>
-void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<dim>(std::size_t)>& specimen,
-                     const std::filesystem::path& folder, const std::size_t part, RunObserver& observer)
+End run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<dim>(std::size_t)>& specimen,
+                    const std::filesystem::path& folder, const std::size_t part, RunObserver& observer)
 {
   const Checkpoints checkpoints(folder, order.name, order.identity);
   ProcessesAsPartners partners;
@@ -46,12 +54,16 @@ void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<
     test.share(partners);
     return test;
   };
+  const auto tell = [&](const std::string& sentence) {
+    if (ranks::is_first()) // all find the same
+      observer.goes_back(sentence);
+  };
   std::optional<LabTest<dim>> kept;
   bool uneven = false;
   const auto resume = [&] {
     kept.reset();
     uneven = false;
-    ranks::in_turn([&] { kept.emplace(checkpoints.open(begin, observer)); });
+    ranks::in_turn([&] { kept.emplace(checkpoints.open(begin, tell)); });
     const std::string state = fmt::format("{} {}", kept->n_steps(), kept->has_ended());
     if (ranks::any(state != ranks::of_first(state)))
       throw OutputError(fmt::format("{}: not all processes could read its newest checkpoint", order.name));
@@ -60,8 +72,6 @@ void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<
   };
   resume();
   LabTest<dim>& test = *kept; // also after it was resumed once more
-  if (test.has_ended())
-    return;
   std::uint64_t n_asked = 0;
   const auto end_if_one_wants = [&] {
     constexpr std::uint64_t steps_between = 50;
@@ -76,29 +86,36 @@ void run_shared_test(const LaboratoryOrder& order, const std::function<Specimen<
       return advance(test, end_if_one_wants, part, observer);
     },
     ranks::any);
+  return test.went_wrong() ? End::failed : test.has_ended() ? End::made : End::interrupted;
 }
 } // namespace
 
 template <int dim>
-void run_shared_tests(const std::vector<LaboratoryOrder>& orders,
-                      const std::function<Specimen<dim>(std::size_t)>& specimen, const std::filesystem::path& folder,
-                      RunObserver& observer)
+std::size_t run_shared_tests(const std::vector<LaboratoryOrder>& orders,
+                             const std::function<Specimen<dim>(std::size_t)>& specimen,
+                             const std::filesystem::path& folder, RunObserver& observer)
 {
   const std::filesystem::path checkpoint_folder = folder / "checkpoints";
   ranks::first([&] { std::filesystem::create_directories(checkpoint_folder); });
+  std::size_t n_made = 0;
   for (const std::size_t k : longest_first(orders))
     {
       if (ranks::any(observer.wants_end()))
         throw Interrupted();
+      End end = End::failed;
       try
         {
-          run_shared_test<dim>(orders[k], specimen, checkpoint_folder, k, observer);
+          end = run_shared_test<dim>(orders[k], specimen, checkpoint_folder, k, observer);
         }
       catch (const InputError&) // the same on all: run_tests() meets it again, and reports it
         {
         }
+      if (end == End::interrupted)
+        throw Interrupted();
+      n_made += end == End::made ? 1 : 0;
       observer.ended(k);
     }
+  return n_made;
 }
 
 template decltype(run_shared_tests<2>) run_shared_tests<2>;

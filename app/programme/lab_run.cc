@@ -146,8 +146,8 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
     }
   const auto tests = plan_tests(plan, specimens);
   RunBoard board(progress, "tests", parts_of(plan, tests, specimens));
-  run_shared_tests<dim>(tests, specimens_in<dim>(plan, folder), folder, board);
-  progress.finish(fmt::format("{} by {} processes together", tests.size(), ranks::number()));
+  const std::size_t n_made = run_shared_tests<dim>(tests, specimens_in<dim>(plan, folder), folder, board);
+  progress.finish(fmt::format("{} of {} by {} processes together", n_made, tests.size(), ranks::number()));
 }
 
 template <int dim>

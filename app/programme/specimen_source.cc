@@ -8,6 +8,7 @@
 #include "app/programme/usual_ranges.h"
 #include "app/run/interrupt.h"
 #include "base/append.h"
+#include "base/checksum/fingerprint.h"
 #include "base/input_error.h"
 #include "dem/rock/rock.h"
 #include "dem/specimen/specimen_file.h"
@@ -33,6 +34,22 @@ std::string rock(const Input& input)
     if (parameter.flags.of_specimen && has_use_for(input, parameter))
       text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
   return text;
+}
+
+/// A name for all that a specimen follows from, by which another one in its place is noticed.
+std::string origin(const Input& input, const std::uint64_t seed)
+{
+  Fingerprint print;
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.flags.of_specimen && has_use_for(input, parameter))
+      {
+        const std::string value = parameter.write(input);
+        print.add(parameter.name());
+        // A run that is resumed names files from the root; their contents are checked by its record.
+        print.add(parameter.range == none_or_a_file ? std::filesystem::path(value).filename().string() : value);
+      }
+  print.add(seed);
+  return fmt::format("{:016x}", print.value());
 }
 
 /// Names of rocks, each by the values that all variants on it share.
@@ -139,9 +156,13 @@ std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::set
         board.advanced(job, {nullptr, double(n_steps) / std::max({expected_steps, beyond * double(n_steps), 1.0})});
     };
     const auto file = folder / (orders[job].name + ".h5");
+    const std::string made_of = origin(input, orders[job].seed);
     if (std::filesystem::exists(file))
       try
         {
+          if (const std::string of_file = head_of_specimen(file, end_if_interrupted).made_of;
+              !of_file.empty() && of_file != made_of)
+            throw InputError("{}: not the specimen of this run", file.string());
           specimen = read_specimen<dim>(file, end_if_interrupted);
           board.ended(job);
           return;
@@ -151,7 +172,7 @@ std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::set
           board.say(fmt::format("{}; making it anew", error.what()));
         }
     specimen = make_rock<dim>(rock_of(input), orders[job].seed, step, end_if_interrupted);
-    write_specimen(specimen, file);
+    write_specimen(specimen, file, made_of);
     board.ended(job);
   });
   progress.finish(fmt::format("{} specimen(s) of {} grains", orders.size(), specimens[*numbers.begin()].grains.size()));

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "coupling/rve/path_checkpoint.h"
+#include "coupling/rve/rve_file.h"
 #include "coupling/rve/state_archive.h"
 
 #include <fmt/format.h>
@@ -292,6 +293,8 @@ void PathRun<dim>::transfer(Archive& archive)
   feldspar::transfer(start_group, start);
   if constexpr (Archive::reads)
     {
+      if (!fits(state, body.network()) || !fits(start, body.network()))
+        throw InputError("a state of another specimen");
       body.restore(start);
       begin_leg(); // the target and the length of the leg
       body.restore(state);

@@ -18,6 +18,7 @@ namespace
 {
 constexpr const char* group_of_state = "state";
 constexpr const char* key_of_boundary = "boundary"; // in words
+} // namespace
 
 template <int dim>
 bool fits(const NetworkState<dim>& state, const Network<dim>& network)
@@ -50,13 +51,12 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
          (state.contact_shear.empty() || state.contact_shear.size() == network.n_segments()) &&
          std::ranges::all_of(state.contact_shear, is_finite) && std::ranges::is_sorted(state.unbonded, by_segment);
 }
-} // namespace
 
 template <int dim>
 void write_rve(const Specimen<dim>& specimen, const Boundary& boundary, const NetworkState<dim>& state,
                const std::filesystem::path& file)
 {
-  write_specimen<dim>(specimen, file, [&](Hdf5Writer& root) {
+  write_specimen<dim>(specimen, file, {}, [&](Hdf5Writer& root) {
     auto group = root.subgroup(group_of_state);
     NetworkState<dim> copy = state; // one description serves writing and reading, and reading changes
     transfer(group, copy);
@@ -87,6 +87,8 @@ std::optional<NetworkState<dim>> read_rve_state(const std::filesystem::path& fil
   return state;
 }
 
+template bool fits<2>(const NetworkState<2>&, const Network<2>&);
+template bool fits<3>(const NetworkState<3>&, const Network<3>&);
 template void write_rve<2>(const Specimen<2>&, const Boundary&, const NetworkState<2>&, const std::filesystem::path&);
 template void write_rve<3>(const Specimen<3>&, const Boundary&, const NetworkState<3>&, const std::filesystem::path&);
 template std::optional<NetworkState<2>> read_rve_state<2>(const std::filesystem::path&, const Network<2>&);

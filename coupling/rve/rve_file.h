@@ -9,6 +9,10 @@
 /// A representative volume as a file: its specimen at rest, as write_specimen() has it, and the state it is in.
 namespace feldspar
 {
+/// Returns whether this may be a state of the network.
+template <int dim>
+bool fits(const NetworkState<dim>& state, const Network<dim>& network);
+
 /// `boundary`: of the network whose state it is.
 template <int dim>
 void write_rve(const Specimen<dim>& specimen, const Boundary& boundary, const NetworkState<dim>& state,

@@ -108,14 +108,17 @@ JointColumns<dim> joint_columns(Archive& archive, BodyShare<dim>& share, Specime
       archive.array("grain_2", grain_2);
       if (grain_2.size() != grain_1.size())
         throw InputError("joints are missing");
+      const std::size_t n_grains = body.grains.size();
+      if (std::ranges::any_of(grain_1, [&](const std::uint32_t i) { return i >= n_grains; }) ||
+          std::ranges::any_of(grain_2, [&](const std::uint32_t i) { return i >= n_grains; }))
+        throw InputError("of another specimen");
       if (share.is_shared())
         {
           std::vector<double> bonded;
           archive.array("bonded", bonded);
           if (bonded.size() != joints.n_segments * grain_1.size())
             throw InputError("bonds are missing");
-          share =
-            share.divided_by(work_of_joints<dim>(body.grains.size(), joints.law, grain_1, bonded, body.smooth_joints));
+          share = share.divided_by(work_of_joints<dim>(n_grains, joints.law, grain_1, bonded, body.smooth_joints));
         }
       std::vector<std::size_t> kept;
       for (std::size_t j = 0; j < grain_1.size(); ++j)
@@ -160,6 +163,11 @@ void Dynamics<dim>::transfer(Archive& archive)
   all_of("couple", grains.couple);
   all_of("applied_force", applied_force);
   images.transfer(archive, grains);
+  if constexpr (Archive::reads)
+    for (const auto* components : {&grains.position, &grains.velocity, &grains.force})
+      for (const auto& values : *components)
+        if (values.size() != grains.size())
+          throw InputError("of another specimen");
   groups.transfer(archive);
 
   const auto first_grain = [](const auto& of_two) { return of_two.grain_1; };

@@ -22,6 +22,7 @@ namespace feldspar
 namespace
 {
 const std::string format_name = "feldspar specimen";
+const std::string name_of_origin = "made_of";
 constexpr std::uint32_t schema_version = 3;
 constexpr double most_segments = 4096.0; // of a face, far beyond what an input may ask for
 
@@ -302,7 +303,7 @@ void transfer(Archive& root, Specimen<dim>& specimen)
 } // namespace
 
 template <int dim>
-void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file,
+void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file, const std::string& made_of,
                     const std::function<void(Hdf5Writer&)>& more)
 {
   write_hdf5(file, [&](Hdf5Writer& root) {
@@ -313,6 +314,8 @@ void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& 
     root.value("schema_version", version);
     root.value("dimension", dimension);
     transfer(root, const_cast<Specimen<dim>&>(specimen));
+    if (std::string name = made_of; !name.empty())
+      root.text(name_of_origin, name);
     if (more)
       more(root);
   });
@@ -357,6 +360,8 @@ SpecimenHead head_of_specimen(const std::filesystem::path& file, const std::func
     if (head.dimension != 2 && head.dimension != 3)
       throw InputError("a specimen of neither two nor three dimensions");
     root.subgroup("report").value("n_grains", head.n_grains);
+    if (root.has_attribute(name_of_origin))
+      root.text(name_of_origin, head.made_of);
   };
   read_foreign_hdf5(file, "a specimen.h5 of " + in_words(Work::specimen), read, check_now);
   return head;

@@ -5,15 +5,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 namespace feldspar
 {
 class Hdf5Writer;
 
-/// Writes specimen.h5 whole or not at all (by way of a temporary file). `more` may add to it what read_specimen() does
-/// not look at.
+/// Writes specimen.h5 whole or not at all (by way of a temporary file). `made_of`: a name for all that the specimen follows from,
+/// or empty. `more` may add to it what read_specimen() does not look at.
 template <int dim>
-void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file,
+void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file, const std::string& made_of = {},
                     const std::function<void(Hdf5Writer&)>& more = {});
 
 /// Reads what write_specimen wrote. Throws InputError where the file is missing, foreign, cut short or inconsistent. `check`
@@ -26,6 +27,7 @@ struct SpecimenHead
 {
   std::uint32_t dimension; ///< 2 or 3
   std::uint64_t n_grains;
+  std::string made_of; ///< as of whoever wrote the file; empty where it is not told
 };
 
 /// Reads nothing else of a file. Throws InputError, and calls `check`, as read_specimen().

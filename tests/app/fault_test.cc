@@ -188,6 +188,30 @@ TEST(Fault, AFolderThatIsMovedDuringTheRunIsSaidInOneLineAndTakenUpWhereItIs)
   EXPECT_EQ(content(folder.path() / "moved/specimen.h5"), specimen);
 }
 
+// Of another width, or of the same packing with another density.
+TEST(Fault, AnotherSpecimenInTheFolderIsNotTakenForThatOfTheRun)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", slow_rock());
+  folder.write("end", "\"$@\" 2>said &\nuntil grep -q tests said; do sleep 0.02; done\nkill -TERM $!\nwait $!\n");
+  EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out", "timeout 60 sh ./end").exit_code, 130);
+  const std::string own = content(folder.path() / "out/specimen.h5");
+  for (const std::string change : {"Specimen/Width = 12 mm", "Specimen/Density = 1350 kg/m^3"})
+    {
+      SCOPED_TRACE(change);
+      ASSERT_EQ(run_feldspar(folder.path(), "specimen rock.prm --output other --force --quiet --set '" + change + "'")
+                  .exit_code,
+                0);
+      fs::copy_file(folder.path() / "other/specimen.h5", folder.path() / "out/specimen.h5",
+                    fs::copy_options::overwrite_existing);
+      EXPECT_EQ(run_feldspar(folder.path(), "lab --resume out", "timeout 60 sh ./end").exit_code, 130);
+      const std::string said = content(folder.path() / "said");
+      EXPECT_NE(said.find("specimen.h5: not the specimen of this run; making it anew"), std::string::npos) << said;
+      EXPECT_EQ(said.find("going back"), std::string::npos) << said;
+      EXPECT_EQ(content(folder.path() / "out/specimen.h5"), own);
+    }
+}
+
 TEST(Fault, AClockThatGoesBackChangesNothing)
 {
   const TemporaryFolder folder;

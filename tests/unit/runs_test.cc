@@ -1,6 +1,8 @@
 #include "runs/laboratory.h"
 
+#include "base/whole_file.h"
 #include "dem/lab/protocols/protocols.h"
+#include "runs/checkpoints.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/same_bits.h"
 #include "tests/unit/small_specimen.h"
@@ -8,12 +10,16 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 /// Runs without a screen, a command line or an input file.
 namespace feldspar
 {
 namespace
 {
+namespace fs = std::filesystem;
 using tests::TemporaryFolder;
 
 /// Wants the end once a test has got so many rows.
@@ -100,6 +106,40 @@ TEST(Runs, AnObserverEndsALaboratoryRunAndALaterOneGoesOnToTheSameBits)
   Patience nothing_left(all_rows);
   EXPECT_EQ(run({order}, in_parts, nothing_left).front().record.curve.size(), patient.n_rows + at_rest);
   EXPECT_EQ(nothing_left.n_rows, 0u);
+}
+
+/// A part of a run whose state is a word, which cannot be written where the disk is full.
+struct Word
+{
+  void write_checkpoint(const fs::path& file, const std::string& /*identity*/) const
+  {
+    if (disk_is_full)
+      throw OutputError("no space");
+    std::ofstream(file) << word;
+  }
+  void read_checkpoint(const fs::path& file, const std::string& /*identity*/)
+  {
+    std::ifstream(file) >> word;
+    if (word == "torn")
+      throw InputError("torn");
+  }
+
+  std::string word;
+  bool disk_is_full = false;
+};
+
+TEST(Checkpoints, ATornOneDoesNotTakeThePlaceOfTheGoodOne)
+{
+  const TemporaryFolder folder;
+  const Checkpoints checkpoints(folder.path(), "word", "it");
+  const auto open = [&] { return checkpoints.open([] { return Word{"begun"}; }, [](const std::string&) {}); };
+  for (const std::string word : {"good", "torn"})
+    checkpoints.write(Word{word});
+  Word resumed = open();
+  EXPECT_EQ(resumed.word, "good");
+  resumed.disk_is_full = true;
+  EXPECT_THROW(checkpoints.write(resumed), OutputError);
+  EXPECT_EQ(open().word, "good");
 }
 
 // The last test of a specimen takes its grains: the others have had copies, so that each comes to the bits of a test alone.

@@ -99,6 +99,12 @@ TEST_F(SpecimenFile, CheckpointsGoOnToTheSameBits)
 
       LabTest<2> other(wanted, specimen, {}, {});
       EXPECT_THROW(other.read_checkpoint(file, "another one"), InputError);
+      for (const auto& of_others : {granite_box(0.012, 0.012), granite_box(0.020, 0.040)})
+        {
+          ASSERT_NE(of_others.grains.size(), specimen.grains.size());
+          LabTest<2> of_another(wanted, of_others, {}, {});
+          EXPECT_THROW(of_another.read_checkpoint(file, "this one"), InputError);
+        }
     }
 }
 } // namespace
