@@ -140,7 +140,7 @@ private:
   std::size_t position = 0;
 };
 
-/// Writes nothing: for what is done on the way.
+/// Writes nothing: for a description that does more than name its values.
 class NothingWriter
 {
 public:

@@ -94,7 +94,7 @@ def table(result):
         "test": lambda one: one["kind"].replace("_", " "),
         "steps": lambda one: count(one["steps"]),
         "broken segments": lambda one: count(one["cracks"]),
-        "largest stress": lambda one: f"{abs(one['peak_stress_Pa']) / 1e6:.2f} MPa",
+        "strength": lambda one: f"{abs(one['peak_stress_Pa']) / 1e6:.2f} MPa" if one["peak_stress_Pa"] else "–",
         "time of the test": lambda one: f"{one['seconds_of_test'] / 60:.1f} min",
         "time of all, with specimen and page": lambda one: f"{one['seconds'] / 60:.1f} min",
         "memory of a process, median": lambda one: gigabytes(one["median_bytes"]),

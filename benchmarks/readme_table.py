@@ -47,6 +47,7 @@ def keep_and_show(name, instructions, table, result=None):
         marked = re.compile(rf"(<!-- {name} {instructions} -->\n).*?(<!-- /{name} {instructions} -->)", re.DOTALL)
         if not marked.search(text):
             sys.exit(f"{README} has no place for the table of {instructions}; the figures are in {results}")
+        text = marked.sub(lambda found: found[1] + table(result) + found[2], text)
         with open(README, "w", encoding="utf-8") as file:
-            file.write(marked.sub(lambda found: found[1] + table(result) + found[2], text))
+            file.write(text)
     print(table(kept(name, instructions)), end="")

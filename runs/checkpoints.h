@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -84,8 +83,6 @@ public:
   {
   }
 
-  bool exist() const { return std::filesystem::exists(newest) || std::filesystem::exists(one_before); }
-
   /// Throws OutputError; the one before is then still there.
   template <typename Part>
   void write(Part&& part) const
@@ -95,8 +92,9 @@ public:
   }
   void set_newest_aside() const
   {
-    if (std::filesystem::exists(newest))
+    if (newest_is_good && std::filesystem::exists(newest))
       std::filesystem::rename(newest, one_before);
+    newest_is_good = true;
   }
   template <typename Part>
   void write_newest(Part&& part) const
@@ -112,8 +110,7 @@ public:
       {newest, one_before}, begin,
       [&](auto& part, const std::filesystem::path& file) {
         part.read_checkpoint(file, identity);
-        if (std::error_code ignored; file == one_before) // the newest would take the place of the good one
-          std::filesystem::remove(newest, ignored);
+        newest_is_good = file == newest;
       },
       tell);
   }
@@ -122,5 +119,6 @@ private:
   std::filesystem::path newest;
   std::filesystem::path one_before;
   std::string identity;
+  mutable bool newest_is_good = true; ///< else the one before was taken up, and stays
 };
 } // namespace feldspar

@@ -11,6 +11,7 @@
 #include "base/append.h"
 #include "base/input_error.h"
 #include "base/mapped.h"
+#include "base/ranks/ranks.h"
 #include "dem/lab/seating.h"
 #include "report/sections/study_text.h"
 #include "results/folder/result_folder.h"
@@ -67,8 +68,12 @@ template <int dim>
 void share_out_tests(const Run& run, Progress& progress)
 {
   const RunPlan plan(run.input);
-  const bool together = makes_tests_together(plan);
-  check_memory_of_tests(plan);
+  bool together = false;
+  ranks::first([&] { // memory that is free differs from machine to machine
+    check_memory_of_tests(plan);
+    together = makes_tests_together(plan);
+  });
+  together = ranks::any(together);
   share_out_specimens<dim>(plan, run.folder, progress);
   if (together)
     {
@@ -121,7 +126,8 @@ RunEnd test_alone(const Run& run, Progress& progress)
 
   // Make the rock.
   const RunPlan plan(input);
-  check_memory_of_tests(plan);
+  if (ranks::number() == 1) // else tests have been made, and a refusal would take them away
+    check_memory_of_tests(plan);
   auto specimens = provide_specimens<dim>(plan, folder, progress);
   if (!input.specimen.specimen_file.empty())
     with_name_of(input_file, [&] { check_specimen_of_file(input, specimens.front()); });

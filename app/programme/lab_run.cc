@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace feldspar
 {
@@ -137,7 +138,8 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
   if (ranks::any(was_interrupted))
     throw Interrupted();
   progress.remark(effort);
-  std::vector<Specimen<dim>> specimens; // which each process reads when it takes its part of one
+  std::vector<Specimen<dim>>
+    specimens; // numbers and seeds alone; each process reads a specimen when it takes its part of it
   for (const auto& [seed, n_grains] : values_of<Head>(ranks::of_first(bytes_of(heads))))
     {
       Specimen<dim>& specimen = specimens.emplace_back();
@@ -145,7 +147,7 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
       specimen.grains.radius.resize(n_grains);
     }
   const auto tests = plan_tests(plan, specimens);
-  RunBoard board(progress, "tests", parts_of(plan, tests, specimens));
+  RunBoard board(progress, "tests", parts_of(plan, tests, std::exchange(specimens, {})));
   const std::size_t n_made = run_shared_tests<dim>(tests, specimens_in<dim>(plan, folder), folder, board);
   progress.finish(fmt::format("{} of {} by {} processes together", n_made, tests.size(), ranks::number()));
 }

@@ -76,7 +76,7 @@ struct BytesOfShared
   double reading; ///< of a process, one at a time of those on a machine
   double first;   ///< of the first when it stores results
 
-  double of_machine() const { return ranks::number_on_this_machine() * each + std::max(reading, first) - each; }
+  double of_machine() const { return ranks::number_on_this_machine() * each + first - each; }
 };
 
 BytesOfShared bytes_of_shared(const int dimension, const double n_grains, const double n_joints, const double n_states)
@@ -207,7 +207,7 @@ void check_memory_of_tests(const RunPlan& plan)
       most_grains = std::max(most_grains, genesis.n_grains);
       dimension = specimen.dimension;
     }
-  const double most_joints = (dimension == 2 ? 2.1 : 2.5) * most_grains;
+  const double most_joints = (dimension == 2 ? 2.2 : 3.5) * most_grains;
   // Of specimens with one test each, all but those whose tests run wait.
   of_kept = std::max(of_kept, of_genesis - number_of_threads() * largest_specimen);
   double bytes =

@@ -26,28 +26,27 @@ namespace feldspar
 {
 namespace
 {
-/// The entries that genesis reads, and their values.
-std::string rock(const Input& input)
+/// The entries that genesis reads, and their values; of files the names alone, or their paths.
+std::string rock(const Input& input, const bool with_paths)
 {
   std::string text;
   for (const Parameter& parameter : parameter_table())
     if (parameter.flags.of_specimen && has_use_for(input, parameter))
-      text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
+      {
+        const std::string value = parameter.write(input);
+        text += fmt::format(
+          "{} = {}\n", parameter.name(),
+          with_paths || parameter.range != none_or_a_file ? value : std::filesystem::path(value).filename().string());
+      }
   return text;
 }
 
-/// A name for all that a specimen follows from, by which another one in its place is noticed.
+/// A name for the entries and the seed of a specimen, by which another one in its place is noticed.
 std::string origin(const Input& input, const std::uint64_t seed)
 {
   Fingerprint print;
-  for (const Parameter& parameter : parameter_table())
-    if (parameter.flags.of_specimen && has_use_for(input, parameter))
-      {
-        const std::string value = parameter.write(input);
-        print.add(parameter.name());
-        // A run that is resumed names files from the root; their contents are checked by its record.
-        print.add(parameter.range == none_or_a_file ? std::filesystem::path(value).filename().string() : value);
-      }
+  print.add(
+    rock(input, false)); // a run that is resumed names files from the root; their contents are checked by its record
   print.add(seed);
   return fmt::format("{:016x}", print.value());
 }
@@ -82,7 +81,7 @@ RunPlan::RunPlan(const Input& input)
   std::vector<std::vector<std::size_t>> of_rock;
   for (std::size_t v = 0; v < variants.size(); ++v)
     {
-      const std::string wanted = rock(variants[v].input);
+      const std::string wanted = rock(variants[v].input, true);
       const auto known = std::ranges::find(rocks, wanted);
       of_rock.resize(std::max(of_rock.size(), std::size_t(known - rocks.begin()) + 1));
       of_rock[std::size_t(known - rocks.begin())].push_back(v);
@@ -126,13 +125,13 @@ std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::set
       orders.push_back(plan.orders[k]);
       parts.push_back({orders.back().name, expected_effort(plan.input_of(orders.back()).specimen).seconds});
     }
-  check_memory(plan, orders);
   const Input& first = plan.variants.front().input;
   std::vector<SpecimenOrder> made;
   std::ranges::copy_if(orders, std::back_inserter(made), [&](const SpecimenOrder& order) {
     return plan.input_of(order).specimen.specimen_file.empty() &&
            !std::filesystem::exists(folder / (order.name + ".h5"));
   });
+  check_memory(plan, made);
   std::vector<std::string> remarks{describe_effort(plan, made)};
   append(remarks, unusual_values(plan.variants));
   remarks.push_back(first.flaws.left_out);

@@ -100,11 +100,11 @@ namespace
 {
 /// Those of all ranks on the first; nothing on others.
 template <typename Bytes>
-Bytes gathered_on_first(const Bytes& own)
+Bytes gathered_on_first(const std::span<const typename Bytes::value_type> own)
 {
   const unsigned int n = number();
   if (n == 1)
-    return own;
+    return {own.begin(), own.end()};
   std::vector<std::uint64_t> sizes(n);
   const std::uint64_t size = own.size();
   MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, of_group);
@@ -118,7 +118,7 @@ Bytes gathered_on_first(const Bytes& own)
     }
   Bytes all;
   all.reserve(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t(0)));
-  all = own;
+  all.assign(own.begin(), own.end());
   for (unsigned int rank = 1; rank < n; ++rank)
     for (std::size_t left = sizes[rank]; left > 0;)
       {
@@ -131,11 +131,11 @@ Bytes gathered_on_first(const Bytes& own)
 }
 } // namespace
 
-std::string gathered(const std::string& text) { return gathered_on_first(text); }
+std::string gathered(const std::string& text) { return gathered_on_first<std::string>(text); }
 
 std::vector<std::byte> gathered_by_first(const std::span<const std::byte> own)
 {
-  return gathered_on_first(std::vector<std::byte>(own.begin(), own.end()));
+  return gathered_on_first<std::vector<std::byte>>(own);
 }
 
 std::vector<std::byte> gathered_by_all(const std::span<const std::byte> own, std::vector<std::size_t>& sizes)

@@ -94,7 +94,7 @@ private:
   std::size_t n_in_file = 0;
 };
 
-/// Those of a body. Reading divides a shared one anew.
+/// The columns of a body's joints. Reading divides a shared body anew.
 template <int dim, typename Archive>
 JointColumns<dim> joint_columns(Archive& archive, BodyShare<dim>& share, Specimen<dim>& body)
 {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/input_error.h"
 #include "dem/specimen/periodic_images.h"
 #include "dem/specimen/specimen.h"
 
@@ -58,6 +59,9 @@ public:
   void transfer(Archive& archive, Grains<dim>& grains)
   {
     archive.bytes("images", images);
+    for (const auto& image : images)
+      if (image.owner >= own_grains)
+        throw InputError("of another specimen");
     for (int c = 0; c < dim; ++c)
       for (int r = 0; r < dim; ++r)
         {

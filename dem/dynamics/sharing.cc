@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -38,6 +39,8 @@ void Dynamics<dim>::share(Partners& with)
 {
   if (const std::string what = what_is_not_shared(body); !what.empty())
     throw InputError("{} cannot be computed by several processes together yet", what);
+  if (started)
+    throw std::logic_error("a body is shared before its first step");
   auto& joints = body.joints;
   part = BodyShare<dim>(
     with, work_of_joints<dim>(body.grains.size(), joints.law, joints.grain_1, joints.bonded, body.smooth_joints));
@@ -85,8 +88,7 @@ void Dynamics<dim>::agree_on_copies()
   needed.insert(needed.end(), body.joints.grain_2.begin(), body.joints.grain_2.end());
   for (const SmoothJoint<dim>& joint : body.smooth_joints)
     needed.insert(needed.end(), {joint.grain_1, joint.grain_2});
-  for (const NearPair& pair : touches.near_pairs())
-    needed.insert(needed.end(), {pair.grain_1, pair.grain_2});
+  touches.for_each_pair([&](const NearPair& pair) { needed.insert(needed.end(), {pair.grain_1, pair.grain_2}); });
   part.agree_on_copies(std::move(needed));
   sweep_memory.known = part.grains();
   sweep_memory.copied = part.copies();

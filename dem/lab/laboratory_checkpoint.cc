@@ -105,7 +105,7 @@ void LabTest<dim>::write_checkpoint(const std::filesystem::path& file, const std
       dynamics.transfer(nothing);
     }
   if (share.any(false))
-    throw OutputError("the first process could not go on");
+    throw OutputError("the first process could not write the body");
 }
 
 template <int dim>

@@ -77,15 +77,15 @@ public:
     std::vector<std::size_t> counts;
     return gathered(values, counts);
   }
-  /// The same on the first process, which goes on as long as it has not said any(true) instead; then throws OutputError. Nothing
-  /// on others.
+  /// The same on the first process; nothing on others. Where the first cannot go on, it says any(true) instead, and the others throw
+  /// OutputError.
   template <typename T>
   std::vector<T> gathered_by_first(const std::vector<T>& values) const
   {
     if (!is_shared())
       return values;
     if (any(false))
-      throw OutputError("the first process could not go on");
+      throw OutputError("the first process could not write the body");
     return values_of<T>(partners->gathered_by_first(std::as_bytes(std::span(values))));
   }
   /// The same of processes that have as many values each.

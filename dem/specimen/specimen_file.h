@@ -11,8 +11,7 @@ namespace feldspar
 {
 class Hdf5Writer;
 
-/// Writes specimen.h5 whole or not at all (by way of a temporary file). `made_of`: a name for all that the specimen follows from,
-/// or empty. `more` may add to it what read_specimen() does not look at.
+/// Writes specimen.h5 whole or not at all (by way of a temporary file). `made_of`: a name for what it was made of, or empty. `more` may add to it what read_specimen() does not look at.
 template <int dim>
 void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file, const std::string& made_of = {},
                     const std::function<void(Hdf5Writer&)>& more = {});

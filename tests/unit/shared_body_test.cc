@@ -262,6 +262,28 @@ TEST(SharedBody, ThatCannotBeWrittenIsAnErrorOnAllProcesses)
   });
 }
 
+// Whose disk is full in the middle: the others are not left waiting.
+TEST(SharedBody, WhoseFirstProcessGivesUpWritingIsAnErrorOnTheOthers)
+{
+  const auto specimen = small_specimen();
+  ThreadPartners(3).run([&](Partners& partners) {
+    Dynamics<2> part(specimen, {}, ZeroForce::at_touch);
+    part.share(partners);
+    part.step();
+    part.know_all();
+    NothingWriter nothing;
+    if (partners.mine() > 0)
+      EXPECT_THROW(part.transfer(nothing), OutputError);
+    else
+      {
+        for (int column = 0; column < 5; ++column)
+          part.sharing().gathered_by_first(std::vector<std::uint8_t>());
+        part.sharing().any(true);
+      }
+    part.step();
+  });
+}
+
 BodyShare<2> share_of(Partners& partners, const Specimen<2>& body)
 {
   const auto& joints = body.joints;
