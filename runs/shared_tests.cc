@@ -34,7 +34,7 @@ struct SharedCheckpoints
   }
 };
 
-/// How the leading of a test ended.
+/// The end of a test that was led.
 enum class End
 {
   interrupted,

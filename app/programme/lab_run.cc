@@ -83,7 +83,7 @@ std::function<Specimen<dim>(std::size_t)> specimens_in(const RunPlan& plan, cons
   return [&](const std::size_t k) { return read_specimen<dim>(folder / (plan.orders[k].name + ".h5")); };
 }
 
-/// What all processes know of a specimen.
+/// Number and seed by which all processes know a specimen.
 struct Head
 {
   std::uint64_t seed;

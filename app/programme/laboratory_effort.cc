@@ -208,7 +208,7 @@ void check_memory_of_tests(const RunPlan& plan)
       dimension = specimen.dimension;
     }
   const double most_joints = (dimension == 2 ? 2.2 : 3.5) * most_grains;
-  // Of specimens with one test each, all but those whose tests run wait.
+  // Specimens with one test each wait, but for those whose tests run.
   of_kept = std::max(of_kept, of_genesis - number_of_threads() * largest_specimen);
   double bytes =
     std::max(of_genesis, of_kept + bytes_of_tests(dimension, n_tests, most_grains, most_joints, most_states));

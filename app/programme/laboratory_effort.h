@@ -19,7 +19,7 @@ struct TestEffort
   std::size_t n_tests = 0;
   double n_steps = 0.0; ///< of the longest
   double n_steps_of_all = 0.0;
-  double bytes = 0.0;   ///< of memory: of those that run at the same time, and of the records of all
+  double bytes = 0.0; ///< of memory: of those that run at the same time, and of the records of all
   double processor_seconds = 0.0;
 };
 

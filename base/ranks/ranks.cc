@@ -98,7 +98,7 @@ std::string of_first(const std::string& text) { return number() == 1 ? text : of
 
 namespace
 {
-/// Those of all ranks on the first; nothing on others.
+/// Gathers the bytes of all ranks on the first; nothing on others.
 template <typename Bytes>
 Bytes gathered_on_first(const std::span<const typename Bytes::value_type> own)
 {

@@ -49,7 +49,7 @@ public:
   {
   }
 
-  /// So many numbers of each joint: all first ones, then all second ones.
+  /// Transfers so many numbers of each joint: all first ones, then all second ones.
   template <typename Archive, typename Values>
   void transfer(Archive& archive, const std::string& name, Values& values, const std::size_t n_of_joint = 1) const
   {

@@ -29,7 +29,7 @@ struct NearPair
   GrainPair ends() const { return {grain_1, grain_2}; }
 };
 
-/// What a pair stores once it has been in contact, which most of those near each other never are.
+/// The contact of a pair, which most of those near each other never make.
 template <int dim>
 struct Touch
 {

@@ -188,7 +188,7 @@ TEST(Fault, AFolderThatIsMovedDuringTheRunIsSaidInOneLineAndTakenUpWhereItIs)
   EXPECT_EQ(content(folder.path() / "moved/specimen.h5"), specimen);
 }
 
-// Of another width, or of the same packing with another density.
+// Another width, or the same packing with another density.
 TEST(Fault, AnotherSpecimenInTheFolderIsNotTakenForThatOfTheRun)
 {
   const TemporaryFolder folder;

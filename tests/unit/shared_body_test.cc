@@ -262,7 +262,7 @@ TEST(SharedBody, ThatCannotBeWrittenIsAnErrorOnAllProcesses)
   });
 }
 
-// Whose disk is full in the middle: the others are not left waiting.
+// The disk may be full in the middle: the others are not left waiting.
 TEST(SharedBody, WhoseFirstProcessGivesUpWritingIsAnErrorOnTheOthers)
 {
   const auto specimen = small_specimen();
