@@ -375,7 +375,7 @@ private:
       fmt::format("Answer, round {}: packings {} to {}.", round, best_input.seeds.front(), best_input.seeds.back()));
     const RunPlan plan(best_input);
     auto specimens = provide_specimens<dim>(plan, folder, progress);
-    auto finished_tests = run_programme(plan, plan_tests(plan, specimens), specimens, folder, progress);
+    auto finished_tests = run_programme(plan, plan_tests(plan, sizes_of(specimens)), specimens, folder, progress);
     end_if_interrupted();
     return finished_tests;
   }

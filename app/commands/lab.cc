@@ -81,18 +81,18 @@ void share_out_tests(const Run& run, Progress& progress)
       return;
     }
   together_or_interrupted([&] {
-    const auto own_tests = [&](const std::vector<Specimen<dim>>& known) {
+    const auto own_tests = [&](const std::vector<SpecimenSize>& known) {
       const auto all = plan_tests(plan, known);
       std::vector<LaboratoryOrder> own;
       for (const std::size_t k : share_of_this_process(longest_first(all)))
         own.push_back(all[k]);
       return own;
     };
-    const auto tests = own_tests(std::vector<Specimen<dim>>(plan.orders.size()));
+    const auto tests = own_tests(std::vector<SpecimenSize>(plan.orders.size()));
     auto specimens = provide_specimens_of<dim>(tests, plan, run.folder, progress);
     // The first process meets again what cannot be made, and reports it.
     if (!tests.empty() && std::ranges::none_of(specimens, [](const auto& specimen) { return specimen.is_periodic(); }))
-      run_programme(plan, own_tests(specimens), specimens, run.folder, progress, false);
+      run_programme(plan, own_tests(sizes_of(specimens)), specimens, run.folder, progress, false);
     end_if_interrupted();
   });
 }
@@ -134,7 +134,7 @@ RunEnd test_alone(const Run& run, Progress& progress)
 
   // Break it.
   check_that_one_fills_its_box(specimens);
-  const auto tests = run_programme(plan, plan_tests(plan, specimens), specimens, folder, progress);
+  const auto tests = run_programme(plan, plan_tests(plan, sizes_of(specimens)), specimens, folder, progress);
   const auto has_nothing = [](const FinishedTest& test) {
     return !test.record.failure.empty() && test.record.curve.empty();
   };

@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace feldspar
 {
@@ -29,13 +28,12 @@ LaboratoryOrder laboratory_order(const TestCase& test, const Input& input, const
   return order;
 }
 
-template <int dim>
-std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<Specimen<dim>>& specimens)
+std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<SpecimenSize>& specimens)
 {
   std::vector<LaboratoryOrder> planned;
   const auto add_tests = [&](const std::size_t v, const std::size_t s) {
     const Variant& variant = plan.variants[v];
-    const std::uint64_t seed = specimens[s].grains.size() > 0 ? specimens[s].seed : plan.orders[s].seed;
+    const std::uint64_t seed = specimens[s].n_grains > 0 ? specimens[s].seed : plan.orders[s].seed;
     for (const TestCase& test : test_cases(variant.input.test_list, variant.input.confinements))
       {
         const std::string& own = variant.name_in_files;
@@ -58,9 +56,8 @@ std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<S
 
 namespace
 {
-template <int dim>
 std::vector<BoardPart> parts_of(const RunPlan& plan, const std::vector<LaboratoryOrder>& tests,
-                                const std::vector<Specimen<dim>>& specimens)
+                                const std::vector<SpecimenSize>& specimens)
 {
   std::vector<BoardPart> parts;
   for (const LaboratoryOrder& one : tests)
@@ -68,27 +65,17 @@ std::vector<BoardPart> parts_of(const RunPlan& plan, const std::vector<Laborator
       const Input& input = plan.variants[one.variant].input;
       const double rate = (*protocol_of(one.test.kind).strain_rate)(input.tests);
       parts.push_back(
-        {one.name, 1.0, BoardTest{one.test, &input, cost_of_specimen(specimens[one.specimen].grains.size(), rate)}});
+        {one.name, 1.0, BoardTest{one.test, &input, cost_of_specimen(specimens[one.specimen].n_grains, rate)}});
     }
   return parts;
 }
-} // namespace
 
-namespace
-{
 /// Reads the specimen of a number from the folder.
 template <int dim>
 std::function<Specimen<dim>(std::size_t)> specimens_in(const RunPlan& plan, const std::filesystem::path& folder)
 {
   return [&](const std::size_t k) { return read_specimen<dim>(folder / (plan.orders[k].name + ".h5")); };
 }
-
-/// Number and seed by which all processes know a specimen.
-struct Head
-{
-  std::uint64_t seed;
-  std::size_t n_grains;
-};
 
 bool has_clumps(const Input& input)
 {
@@ -119,16 +106,15 @@ bool makes_tests_together(const RunPlan& plan)
 template <int dim>
 void run_together(const RunPlan& plan, const std::filesystem::path& folder, Progress& progress)
 {
-  std::vector<Head> heads;
+  std::vector<SpecimenSize> sizes;
   std::string effort;
   bool was_interrupted = false;
   ranks::first([&] {
     try
       {
         const auto specimens = provide_specimens<dim>(plan, folder, progress);
-        for (const auto& specimen : specimens)
-          heads.push_back({specimen.seed, specimen.grains.size()});
-        effort = describe_shared_effort<dim>(plan_tests(plan, specimens), plan.variants, specimens);
+        sizes = sizes_of(specimens);
+        effort = describe_shared_effort<dim>(plan_tests(plan, sizes), plan.variants, specimens);
       }
     catch (const Interrupted&)
       {
@@ -138,16 +124,9 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
   if (ranks::any(was_interrupted))
     throw Interrupted();
   progress.remark(effort);
-  std::vector<Specimen<dim>>
-    specimens; // numbers and seeds alone; each process reads a specimen when it takes its part of it
-  for (const auto& [seed, n_grains] : values_of<Head>(ranks::of_first(bytes_of(heads))))
-    {
-      Specimen<dim>& specimen = specimens.emplace_back();
-      specimen.seed = seed;
-      specimen.grains.radius.resize(n_grains);
-    }
-  const auto tests = plan_tests(plan, specimens);
-  RunBoard board(progress, "tests", parts_of(plan, tests, std::exchange(specimens, {})));
+  sizes = values_of<SpecimenSize>(ranks::of_first(bytes_of(sizes)));
+  const auto tests = plan_tests(plan, sizes);
+  RunBoard board(progress, "tests", parts_of(plan, tests, sizes));
   const std::size_t n_made = run_shared_tests<dim>(tests, specimens_in<dim>(plan, folder), folder, board);
   progress.finish(fmt::format("{} of {} by {} processes together", n_made, tests.size(), ranks::number()));
 }
@@ -161,7 +140,7 @@ std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<L
     progress.remark(sentence);
   if (ranks::number() == 1 || !makes_tests_together(plan)) // else they have been made
     progress.remark(describe_effort<dim>(tests, plan.variants, specimens));
-  RunBoard board(progress, "tests", parts_of(plan, tests, specimens), tells_failures);
+  RunBoard board(progress, "tests", parts_of(plan, tests, sizes_of(specimens)), tells_failures);
   auto finished_tests = run_tests<dim>(tests, specimens, specimens_in<dim>(plan, folder), folder, board);
   const auto n_made = std::ranges::count_if(finished_tests, &FinishedTest::was_made);
   const auto n_failed =
@@ -171,8 +150,6 @@ std::vector<FinishedTest> run_programme(const RunPlan& plan, const std::vector<L
   return finished_tests;
 }
 
-template decltype(plan_tests<2>) plan_tests<2>;
-template decltype(plan_tests<3>) plan_tests<3>;
 template decltype(run_together<2>) run_together<2>;
 template decltype(run_together<3>) run_together<3>;
 template decltype(run_programme<2>) run_programme<2>;

@@ -3,8 +3,11 @@
 #include "app/input/input.h"
 #include "app/programme/specimen_source.h"
 #include "app/screen/progress.h"
+#include "base/mapped.h"
 #include "runs/laboratory.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,10 +17,24 @@ namespace feldspar
 /// A test of an input, which must outlive it.
 LaboratoryOrder laboratory_order(const TestCase& test, const Input& input, const std::string& name);
 
+/// Seed and size of a specimen, by which its tests are planned.
+struct SpecimenSize
+{
+  std::uint64_t seed;
+  std::size_t n_grains; ///< 0: it is not there yet
+};
+
+template <int dim>
+std::vector<SpecimenSize> sizes_of(const std::vector<Specimen<dim>>& specimens)
+{
+  return mapped<SpecimenSize>(specimens, [](const Specimen<dim>& specimen) {
+    return SpecimenSize{specimen.seed, specimen.grains.size()};
+  });
+}
+
 /// The tests of a run, by variants, seeds and tests. Seeds are those of the specimens that exist already, for one out of a file
 /// brings its own, else of the orders.
-template <int dim>
-std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<Specimen<dim>>& specimens);
+std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<SpecimenSize>& specimens);
 
 /// Returns whether all processes of a run make its tests together.
 bool makes_tests_together(const RunPlan& plan);

@@ -45,8 +45,8 @@ std::string rock(const Input& input, const bool with_paths)
 std::string origin(const Input& input, const std::uint64_t seed)
 {
   Fingerprint print;
-  print.add(
-    rock(input, false)); // a run that is resumed names files from the root; their contents are checked by its record
+  // Paths change, for a run that is resumed names files from the root; their contents are checked by its record.
+  print.add(rock(input, false));
   print.add(seed);
   return fmt::format("{:016x}", print.value());
 }

@@ -193,18 +193,6 @@ private:
   std::optional<H5::Group> copy;
 };
 
-/// Numbers that lie otherwise than in a vector; reading them, as many as there are.
-template <typename Archive, typename Numbers>
-void transfer_numbers(Archive& archive, const std::string& name, Numbers& numbers)
-{
-  std::vector<double> values(numbers.begin(), numbers.end());
-  archive.array(name, values);
-  if (values.size() != numbers.size())
-    throw InputError("{} holds {} values instead of {}", name, values.size(), numbers.size());
-  if constexpr (Archive::reads)
-    std::ranges::copy(values, numbers.begin());
-}
-
 /// The library is not made for several threads at once.
 inline std::mutex& hdf5_mutex()
 {

@@ -87,8 +87,8 @@ public:
   /// The largest work of a process over the largest after a new division.
   double unevenness() const { return part.unevenness(body); }
 
-  /// Advances by one step and returns what broke in it, of a shared body that which this process counts. Throws Runaway where numbers have gone wrong, which it looks for
-  /// whenever it looks for contacts that may be missed.
+  /// Advances by one step and returns what broke in it, of a shared body that which this process counts. Throws Runaway where numbers
+  /// have gone wrong, which it looks for whenever it looks for contacts that may be missed.
   std::vector<Break> step();
   /// Number of all breaks in the last step.
   std::size_t n_breaks() const { return released.size(); }

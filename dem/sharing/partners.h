@@ -35,7 +35,7 @@ std::vector<T> values_of(const std::vector<std::byte>& bytes)
   static_assert(std::is_trivially_copyable_v<T>);
   std::vector<T> values(bytes.size() / sizeof(T));
   if (!values.empty())
-    std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
+    std::memcpy(static_cast<void*>(values.data()), bytes.data(), values.size() * sizeof(T));
   return values;
 }
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <string>
@@ -25,6 +26,18 @@ const std::string format_name = "feldspar specimen";
 const std::string name_of_origin = "made_of";
 constexpr std::uint32_t schema_version = 3;
 constexpr double most_segments = 4096.0; // of a face, far beyond what an input may ask for
+
+/// Numbers that lie otherwise than in a vector; reading them, as many as there are.
+template <typename Archive, typename Numbers>
+void transfer_numbers(Archive& archive, const std::string& name, Numbers& numbers)
+{
+  std::vector<double> values(numbers.begin(), numbers.end());
+  archive.array(name, values);
+  if (values.size() != numbers.size())
+    throw InputError("{} holds {} values instead of {}", name, values.size(), numbers.size());
+  if constexpr (Archive::reads)
+    std::ranges::copy(values, numbers.begin());
+}
 
 /// Name and numbers of the joints' law; a file that tells none is of the time of the flat joint alone.
 template <int dim, typename Archive>

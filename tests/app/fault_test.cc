@@ -40,6 +40,10 @@ std::string slow_rock()
   return quick_rock.substr(0, quick_rock.find("  set Stop")) + "  set Tension strain rate = 1e-8 1/s\nend\n";
 }
 
+/// A script that ends a command once it makes its tests. What a command said before it must not be taken for that.
+const std::string interrupt_in_tests =
+  "rm -f said\n\"$@\" 2>said &\nuntil grep -sq tests said; do sleep 0.02; done\nkill -TERM $!\nwait $!\n";
+
 /// A command of each kind, of seconds at most; `report` is of the folder "whole".
 struct CommandOfEachKind
 {
@@ -182,7 +186,7 @@ TEST(Fault, AFolderThatIsMovedDuringTheRunIsSaidInOneLineAndTakenUpWhereItIs)
   EXPECT_EQ(n_lines(outcome.error), 1u) << outcome.error;
   EXPECT_NE(outcome.error.find("No such file or directory"), std::string::npos) << outcome.error;
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
-  folder.write("end", "\"$@\" 2>said &\nuntil grep -q tests said; do sleep 0.02; done\nkill -TERM $!\nwait $!\n");
+  folder.write("end", interrupt_in_tests);
   const std::string specimen = content(folder.path() / "moved/specimen.h5");
   EXPECT_EQ(run_feldspar(folder.path(), "lab --resume moved", "timeout 60 sh ./end").exit_code, 130);
   EXPECT_EQ(content(folder.path() / "moved/specimen.h5"), specimen);
@@ -193,7 +197,7 @@ TEST(Fault, AnotherSpecimenInTheFolderIsNotTakenForThatOfTheRun)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", slow_rock());
-  folder.write("end", "\"$@\" 2>said &\nuntil grep -q tests said; do sleep 0.02; done\nkill -TERM $!\nwait $!\n");
+  folder.write("end", interrupt_in_tests);
   EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out", "timeout 60 sh ./end").exit_code, 130);
   const std::string own = content(folder.path() / "out/specimen.h5");
   for (const std::string change : {"Specimen/Width = 12 mm", "Specimen/Density = 1350 kg/m^3"})
