@@ -227,7 +227,6 @@ void Dynamics<dim>::transfer(Archive& archive)
         wall_set.take(w, std::move(near_walls[w]));
       keep_own();
     }
-  joint_groups = JointGroups<dim>(joints); // writing too, so that a resumed run regroups when this one does
   if constexpr (Archive::reads)
     {
       index_joints();

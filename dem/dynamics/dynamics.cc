@@ -1,5 +1,6 @@
 #include "dem/dynamics/dynamics.h"
 
+#include "dem/dynamics/sweeps/joint_groups.h"
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
 #include "dem/storage/responds_as_one.h"
@@ -17,6 +18,8 @@ namespace feldspar
 {
 namespace
 {
+constexpr std::uint64_t steps_between_groupings = 256; // of joints; looking takes as long as a tenth of a step
+
 /// The first grain of those that a process has found, which all then know.
 template <int dim>
 std::optional<StrayGrain> first_of_all(const BodyShare<dim>& part, const std::optional<StrayGrain>& here)
@@ -125,14 +128,15 @@ std::vector<Break> Dynamics<dim>::step()
     start();
   else if (watch_is_over() || faces_have_gone)
     {
-      const bool some_have_gone = remove_lost_contacts();
-      if (regroup_joints() || some_have_gone)
+      if (remove_lost_contacts())
         index_joints();
       find_contacts();
       choose_time_step();
     }
   else if (contact_made)
     choose_time_step();
+  if (steps % steps_between_groupings == 0 && regroup_joints())
+    index_joints();
 
   add_boundary_work(dt, 0.5);
   const double farthest_way = part.copy_motions(body.grains, integrate());
@@ -172,7 +176,6 @@ void Dynamics<dim>::restart()
 template <int dim>
 void Dynamics<dim>::start()
 {
-  joint_groups = JointGroups<dim>(body.joints);
   index_joints();
   find_contacts();
   check();
@@ -225,6 +228,7 @@ void Dynamics<dim>::index_joints()
               [&](const std::uint32_t a, const std::uint32_t b) { return number_and_end(a) < number_and_end(b); });
   sum_order = SumOrder(joints_of, joints.size(), part.grains());
   sweep_memory = SweepMemory<dim>(joints);
+  know_copies();
 }
 
 /// Only a law that responds for faces as for one gains by it. A periodic body is left as it stands, because its mean stress may
@@ -232,7 +236,7 @@ void Dynamics<dim>::index_joints()
 template <int dim>
 bool Dynamics<dim>::regroup_joints()
 {
-  return responds_as_one<dim>(body.joints.law) && !body.is_periodic() && joint_groups.regroup(body.joints);
+  return responds_as_one<dim>(body.joints.law) && !body.is_periodic() && regroup(body.joints, sweep_memory);
 }
 
 /// The grains of a joint that has lost its face may come into contact again. Returns whether joints have gone.
@@ -275,7 +279,6 @@ bool Dynamics<dim>::remove_lost_contacts()
   if (kept.size() == joints.size())
     return false;
   joints.keep(kept);
-  joint_groups = JointGroups<dim>(joints);
   return true;
 }
 
@@ -379,7 +382,6 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step, const doubl
   auto breaks = sweep_joints(
     body.joints, body.grains, step, sweep_memory,
     {sum_order.blocks_in_a_row, [&](const std::size_t block) { sum_forces_behind(block, body, sum_order); }});
-  joint_groups.note(breaks, body.joints);
   contact_made = touches.update(body, step, farthest_way) || contact_made;
   sum_remaining_forces(body, sum_order, touches);
   if (!body.smooth_joints.empty())

@@ -8,7 +8,6 @@
 #include "dem/dynamics/incidence.h"
 #include "dem/dynamics/parameters.h"
 #include "dem/dynamics/runaway.h"
-#include "dem/dynamics/sweeps/joint_groups.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/dynamics/sweeps/motion.h"
 #include "dem/dynamics/touches.h"
@@ -178,6 +177,7 @@ private:
   std::vector<Break> agree(std::vector<Break> breaks, double dt);
   double largest_stiffness_ratio() const;
   void agree_on_copies();
+  void know_copies();
   void keep_own();
   void add_boundary_work(double dt, double share);
 
@@ -201,7 +201,6 @@ private:
   SumOrder sum_order;
   InverseInertia inverse_inertia; ///< of the bodies
   SweepMemory<dim> sweep_memory;
-  JointGroups<dim> joint_groups;
   ContactWatch<dim> watch;
   EnergyLedger ledger;
 

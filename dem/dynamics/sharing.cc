@@ -90,6 +90,15 @@ void Dynamics<dim>::agree_on_copies()
     needed.insert(needed.end(), {joint.grain_1, joint.grain_2});
   touches.for_each_pair([&](const NearPair& pair) { needed.insert(needed.end(), {pair.grain_1, pair.grain_2}); });
   part.agree_on_copies(std::move(needed));
+  know_copies();
+}
+
+/// Tells the sweep whose motions are known.
+template <int dim>
+void Dynamics<dim>::know_copies()
+{
+  if (!part.is_shared())
+    return;
   sweep_memory.known = part.grains();
   sweep_memory.copied = part.copies();
 }
@@ -232,6 +241,8 @@ template void Dynamics<2>::keep_own();
 template void Dynamics<3>::keep_own();
 template void Dynamics<2>::agree_on_copies();
 template void Dynamics<3>::agree_on_copies();
+template void Dynamics<2>::know_copies();
+template void Dynamics<3>::know_copies();
 template std::vector<std::vector<double>> Dynamics<2>::works_of_applied_forces(double) const;
 template std::vector<std::vector<double>> Dynamics<3>::works_of_applied_forces(double) const;
 template std::vector<Break> Dynamics<2>::agree(std::vector<Break>, double);

@@ -34,15 +34,27 @@ inline Four load_four(const double* const from)
 
 inline void store_four(const Four& four, double* const to) { std::memcpy(to, &four, sizeof four); }
 
-/// Rows and columns of 4 × 4 numbers changed over.
-inline std::array<Four, 4> transposed(const std::array<Four, 4>& rows)
+/// Pairs of numbers of two vectors, for either half of eight numbers.
+inline Four evens(const Four& a, const Four& b) { return __builtin_shufflevector(a, b, 0, 4, 2, 6); }
+inline Four odds(const Four& a, const Four& b) { return __builtin_shufflevector(a, b, 1, 5, 3, 7); }
+inline Four firsts(const Four& a, const Four& b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
+inline Four lasts(const Four& a, const Four& b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }
+inline Eight evens(const Eight& a, const Eight& b) { return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14); }
+inline Eight odds(const Eight& a, const Eight& b) { return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15); }
+inline Eight firsts(const Eight& a, const Eight& b) { return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13); }
+inline Eight lasts(const Eight& a, const Eight& b) { return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15); }
+
+/// Hands the columns of 4 × 4 numbers to put(0, column), …, put(3, column); of 4 × 8, those of both halves. One by one: a
+/// list of columns would be written to memory and read again.
+template <typename Vector, typename Put>
+void transpose(const std::array<Vector, 4>& rows, Put&& put)
 {
-  const Four even_01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
-  const Four odd_01 = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
-  const Four even_23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
-  const Four odd_23 = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
-  return {__builtin_shufflevector(even_01, even_23, 0, 1, 4, 5), __builtin_shufflevector(odd_01, odd_23, 0, 1, 4, 5),
-          __builtin_shufflevector(even_01, even_23, 2, 3, 6, 7), __builtin_shufflevector(odd_01, odd_23, 2, 3, 6, 7)};
+  const Vector even_01 = evens(rows[0], rows[1]), even_23 = evens(rows[2], rows[3]);
+  const Vector odd_01 = odds(rows[0], rows[1]), odd_23 = odds(rows[2], rows[3]);
+  put(0, firsts(even_01, even_23));
+  put(1, firsts(odd_01, odd_23));
+  put(2, lasts(even_01, even_23));
+  put(3, lasts(odd_01, odd_23));
 }
 
 /// The four numbers at from + stride index[0], from + stride index[1], …; number by number.
@@ -51,29 +63,22 @@ std::array<Real, 4> gather_records(const double* const from, const std::size_t s
 {
   constexpr std::size_t n = width<Real>;
   const auto record = [&](const std::size_t i) { return load_four(from + stride * index[i]); };
+  std::array<Real, 4> numbers;
+  const auto put = [&](const std::size_t c, const auto& column) { numbers[c] = std::bit_cast<Real>(column); };
   if constexpr (n == 4)
-    {
-      const auto columns = transposed({record(0), record(1), record(2), record(3)});
-      return {std::bit_cast<Real>(columns[0]), std::bit_cast<Real>(columns[1]), std::bit_cast<Real>(columns[2]),
-              std::bit_cast<Real>(columns[3])};
-    }
+    transpose<Four>({record(0), record(1), record(2), record(3)}, put);
   else if constexpr (n == 8)
     {
-      const auto low = transposed({record(0), record(1), record(2), record(3)});
-      const auto high = transposed({record(4), record(5), record(6), record(7)});
-      const auto whole = [&](const std::size_t c) { return std::bit_cast<Real>(joined(low[c], high[c])); };
-      return {whole(0), whole(1), whole(2), whole(3)};
+      const auto two = [&](const std::size_t i) { return joined(record(i), record(i + 4)); };
+      transpose<Eight>({two(0), two(1), two(2), two(3)}, put);
     }
   else
-    {
-      std::array<Real, 4> numbers;
-      for (std::size_t c = 0; c < 4; ++c)
-        if constexpr (n == 1)
-          numbers[c] = from[stride * *index + c];
-        else
-          numbers[c] = Real([&](const auto i) { return from[stride * index[i] + c]; });
-      return numbers;
-    }
+    for (std::size_t c = 0; c < 4; ++c)
+      if constexpr (n == 1)
+        numbers[c] = from[stride * *index + c];
+      else
+        numbers[c] = Real([&](const auto i) { return from[stride * index[i] + c]; });
+  return numbers;
 }
 
 /// The inverse, to to, to + stride, …: a record for each member of the packs.
@@ -81,25 +86,18 @@ template <typename Real>
 void store_records(const std::array<Real, 4>& numbers, double* const to, const std::size_t stride)
 {
   constexpr std::size_t n = width<Real>;
+  const auto rows_of = [&]<typename Vector>(const Vector&) {
+    return std::array<Vector, 4>{std::bit_cast<Vector>(numbers[0]), std::bit_cast<Vector>(numbers[1]),
+                                 std::bit_cast<Vector>(numbers[2]), std::bit_cast<Vector>(numbers[3])};
+  };
   if constexpr (n == 4)
-    {
-      const auto records = transposed({std::bit_cast<Four>(numbers[0]), std::bit_cast<Four>(numbers[1]),
-                                       std::bit_cast<Four>(numbers[2]), std::bit_cast<Four>(numbers[3])});
-      for (std::size_t i = 0; i < 4; ++i)
-        store_four(records[i], to + stride * i);
-    }
+    transpose<Four>(rows_of(Four()),
+                    [&](const std::size_t i, const Four& record) { store_four(record, to + stride * i); });
   else if constexpr (n == 8)
-    {
-      const auto eight = [&](const std::size_t c) { return std::bit_cast<Eight>(numbers[c]); };
-      const auto low = transposed({low_half(eight(0)), low_half(eight(1)), low_half(eight(2)), low_half(eight(3))});
-      const auto high =
-        transposed({high_half(eight(0)), high_half(eight(1)), high_half(eight(2)), high_half(eight(3))});
-      for (std::size_t i = 0; i < 4; ++i)
-        {
-          store_four(low[i], to + stride * i);
-          store_four(high[i], to + stride * (i + 4));
-        }
-    }
+    transpose<Eight>(rows_of(Eight()), [&](const std::size_t i, const Eight& two) {
+      store_four(low_half(two), to + stride * i);
+      store_four(high_half(two), to + stride * (i + 4));
+    });
   else
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t c = 0; c < 4; ++c)

@@ -30,15 +30,16 @@ Specimen<dim> body()
 }
 
 template <int dim>
-void break_segments(Joints<dim>& joints, const std::size_t j, const unsigned int n, JointGroups<dim>& groups)
+void break_segments(Joints<dim>& joints, const std::size_t j, const unsigned int n)
 {
-  std::vector<Break> breaks;
   for (unsigned int i = 0; i < n; ++i)
-    {
-      joints.bonded[joints.segment(i, j)] = 0.0;
-      breaks.push_back({std::uint32_t(j), i, true, 0.0});
-    }
-  groups.note(breaks, joints);
+    joints.bonded[joints.segment(i, j)] = 0.0;
+}
+
+template <int dim>
+bool regroup(Joints<dim>& joints)
+{
+  return regroup(joints, SweepMemory<dim>(joints));
 }
 
 template <int dim>
@@ -81,24 +82,21 @@ void expect_that_broken_joints_are_put_together()
   auto specimen = body<dim>();
   auto& joints = specimen.joints;
   sweep_joints(joints, specimen.grains, 0.0); // so that they have forces
-  JointGroups<dim> groups(joints);
-  EXPECT_FALSE(groups.regroup(joints)); // all are whole
+  EXPECT_FALSE(regroup(joints));              // all are whole
   std::size_t n_broken = 0;
   for (std::size_t j = 0; j < joints.size(); j += 7, ++n_broken)
-    break_segments(joints, j, n_broken % 2 == 0 ? joints.n_segments : 1, groups);
+    break_segments(joints, j, n_broken % 2 == 0 ? joints.n_segments : 1);
   const auto before = told_by_number(joints);
   EXPECT_GT(n_packs_with_broken_bonds(joints), joints.size() / pack * 9 / 10);
 
-  ASSERT_TRUE(groups.regroup(joints));
+  ASSERT_TRUE(regroup(joints));
   EXPECT_EQ(told_by_number(joints), before);
   // In each window the last ones: packs full of them, and one that is mixed at either end.
   const std::size_t n_windows = (joints.size() + window - 1) / window;
   EXPECT_LE(n_packs_with_broken_bonds(joints), n_broken / pack + 2 * n_windows);
   for (std::size_t j = 0; j < joints.size(); ++j)
     EXPECT_EQ(joints.number[j] / window, j / window); // none was lost: windows stay where they were
-  EXPECT_FALSE(groups.regroup(joints));               // nothing has broken since
-  JointGroups<dim> taken_up(joints);
-  EXPECT_FALSE(taken_up.regroup(joints)); // nor is there anything to gain
+  EXPECT_FALSE(regroup(joints));                      // nothing has broken since
 }
 
 TEST(JointGroups, PutBrokenJointsTogetherAndChangeNone)
@@ -111,29 +109,27 @@ TEST(JointGroups, ArePutAnewOnlyWhereItSparesEnough)
 {
   // Three broken joints of some 650 make a sweep compute three of eighty packs segment by segment: one would do.
   auto joints = granite_box(0.03, 0.03).joints;
-  JointGroups<2> groups(joints);
   for (const std::size_t j : {std::size_t(0), std::size_t(100), std::size_t(400)})
-    break_segments(joints, j, 1, groups);
-  EXPECT_FALSE(groups.regroup(joints));
+    break_segments(joints, j, 1);
+  EXPECT_FALSE(regroup(joints));
 }
 
 TEST(JointGroups, ThatArePutAnewHaveOneOrderHoweverTheyStood)
 {
   auto one = granite_box(0.03, 0.03).joints, other = one;
-  JointGroups<2> groups_of_one(one), groups_of_other(other);
   for (std::size_t j = 0; j < one.size(); j += 5)
-    break_segments(one, j, 4, groups_of_one);
-  ASSERT_TRUE(groups_of_one.regroup(one));
+    break_segments(one, j, 4);
+  ASSERT_TRUE(regroup(one));
 
   // The other loses half of these bonds and is put anew before it loses the rest.
   for (std::size_t j = 0; j < other.size(); j += 10)
-    break_segments(other, j, 4, groups_of_other);
-  ASSERT_TRUE(groups_of_other.regroup(other));
+    break_segments(other, j, 4);
+  ASSERT_TRUE(regroup(other));
   EXPECT_NE(one.number, other.number);
   for (std::size_t j = 0; j < other.size(); ++j)
     if (other.number[j] % 10 == 5)
-      break_segments(other, j, 4, groups_of_other);
-  ASSERT_TRUE(groups_of_other.regroup(other));
+      break_segments(other, j, 4);
+  ASSERT_TRUE(regroup(other));
   EXPECT_EQ(one.number, other.number);
 }
 

@@ -3,41 +3,11 @@
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/storage/joints.h"
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 namespace feldspar
 {
-/// Groups of neighbouring joints in storage. A sweep computes a pack of joints segment by segment if one of them needs
-/// it. Joints with broken bonds are therefore put together, and those without any bond apart from those with some: most
-/// joints without bonds are open and need no computation. The order follows from numbers and bonds alone.
+/// Puts neighbouring joints that a sweep computes segment by segment together in storage, where this spares more than a thirty-second of
+/// all packs: a pack is computed so as soon as one of its joints needs it. The memory is that of the last sweep. Returns
+/// whether it did: joints have other places then. The order follows from the numbers and states of the joints alone.
 template <int dim>
-class JointGroups
-{
-public:
-  JointGroups() = default;
-  explicit JointGroups(const Joints<dim>& joints);
-
-  /// Records the breaks of a sweep.
-  void note(const std::vector<Break>& breaks, const Joints<dim>& joints);
-
-  /// Puts joints together anew where more than a sixteenth of all packs would then have no broken bond any more. Returns
-  /// whether it did: joints have other places now.
-  bool regroup(Joints<dim>& joints);
-
-private:
-  /// Kinds of joints in the order in which they are put.
-  enum Bonds : std::uint8_t
-  {
-    all,
-    none,
-    some
-  };
-  /// The joints in the order in which they are to stand.
-  std::vector<std::size_t> grouped(const Joints<dim>& joints) const;
-
-  std::vector<Bonds> bonds; ///< of each joint
-  bool has_changed = false; ///< since regroup() looked
-};
+bool regroup(Joints<dim>& joints, const SweepMemory<dim>& memory);
 } // namespace feldspar

@@ -306,10 +306,14 @@ template <typename Real, typename Law, int dim>
   rows.template put_all<n_turns>(Row::rotation, motion.rotation);
   rows.template put_all<n_shear>(Row::slip, slip);
 
-  Face<Real> face{rows.take(Row::normal_stiffness), rows.take(Row::shear_stiffness), rows.take(Row::half_length),
-                  joints.thickness, Real(joints.friction)};
+  const Face<Real> face{rows.take(Row::normal_stiffness), rows.take(Row::shear_stiffness), rows.take(Row::half_length),
+                        joints.thickness, Real(joints.friction)};
   // Whole and open faces have no friction: their sweep does not read it.
-  const auto take_friction = [&] { face.friction = joints.friction + rows.take(Row::further_friction); };
+  const auto with_friction = [&] {
+    Face<Real> its_face = face;
+    its_face.friction = joints.friction + rows.take(Row::further_friction);
+    return its_face;
+  };
   FaceResultants<dim, Real> resultants;
   if constexpr (RespondsAsOne<Law, dim, Real>)
     {
@@ -327,41 +331,58 @@ template <typename Real, typename Law, int dim>
             resultants = select(stays_open, FaceResultants<dim, Real>{}, resultants);
           else
             {
-              take_friction();
-              resultants = update_segments<Real>(law, joints, memory, face, motion, before, resultants, j, breaks);
+              // Copies: what a function is handed lies in memory, where these numbers of all other joints need not be.
+              const Face<Real> its_face = with_friction();
+              const FaceMotion<dim, Real> its_motion = motion;
+              const FaceBefore<dim, Real> as_before = before;
+              const FaceResultants<dim, Real> as_one = resultants;
+              resultants =
+                update_segments<Real>(law, joints, memory, its_face, its_motion, as_before, as_one, j, breaks);
             }
         }
     }
   else
-    {
-      take_friction();
-      resultants = update_each_segment<Real>(law, joints, face, motion, before, j, breaks);
-    }
+    resultants = update_each_segment<Real>(law, joints, with_friction(), motion, before, j, breaks);
   ask_for_responses<Real, JointTables<dim>::n_response_rows>(joints.response.at(0, j));
   store_response(Law::force(contact.frame, half_radius_difference, resultants.normal_force, resultants.shear_force,
                             resultants.moment),
                  joints.response.at(0, j));
 }
 
-/// x, y, φ, or x, y, z, -, φ_x, φ_y, φ_z, - of every grain.
+/// x, y, φ, -, or x, y, z, -, φ_x, φ_y, φ_z, - of grain i, or of the pack of grains that begins at i.
+template <typename Real, int dim>
+void record_grain(const Grains<dim>& grains, const double dt, const std::size_t i, double* const records)
+{
+  constexpr std::size_t size = SweepMemory<dim>::record_size;
+  const auto centre = [&](const std::size_t c) { return simd::load<Real>(&grains.position[c][i]); };
+  const auto turn = [&](const std::size_t c) { return dt * simd::load<Real>(&grains.spin[c][i]); };
+  double* const to = records + size * i;
+  if constexpr (dim == 2)
+    simd::store_records<Real>({centre(0), centre(1), turn(0), Real(0.0)}, to, size);
+  else
+    {
+      simd::store_records<Real>({centre(0), centre(1), centre(2), Real(0.0)}, to, size);
+      simd::store_records<Real>({turn(0), turn(1), turn(2), Real(0.0)}, to + 4, size);
+    }
+}
+
+/// Records of all grains whose motions are known.
 template <int dim>
 void record_grains(const Grains<dim>& grains, const double dt, SweepMemory<dim>& memory)
 {
-  constexpr std::size_t size = SweepMemory<dim>::record_size, first_turn = size - (dim == 2 ? 2 : 4);
-  memory.grain_records.resize(size * grains.size());
+  constexpr std::size_t width = simd::width<simd::Pack>;
+  memory.grain_records.resize(SweepMemory<dim>::record_size * grains.size());
   double* const records = memory.grain_records.data();
-  const auto record = [&grains, dt, records](const std::size_t i) {
-    for (std::size_t c = 0; c < dim; ++c)
-      records[size * i + c] = grains.position[c][i];
-    for (std::size_t c = 0; c < n_rotations<dim>; ++c)
-      records[size * i + first_turn + c] = dt * grains.spin[c][i];
-  };
   const auto known = memory.known.value_or(GrainRange{0, std::uint32_t(grains.size())});
   for_each_block(known.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
-    for (std::size_t i = known.first + begin; i < known.first + end; ++i)
-      record(i);
+    std::size_t i = known.first + begin;
+    for (; i + width <= known.first + end; i += width)
+      record_grain<simd::Pack>(grains, dt, i, records);
+    for (; i < known.first + end; ++i)
+      record_grain<double>(grains, dt, i, records);
   });
-  std::ranges::for_each(memory.copied, record);
+  for (const std::uint32_t i : memory.copied)
+    record_grain<double>(grains, dt, i, records);
 }
 } // namespace joint_sweep
 
