@@ -47,7 +47,7 @@ inline Eight lasts(const Eight& a, const Eight& b) { return __builtin_shufflevec
 /// Hands the columns of 4 × 4 numbers to put(0, column), …, put(3, column); of 4 × 8, those of both halves. One by one: a
 /// list of columns would be written to memory and read again.
 template <typename Vector, typename Put>
-void transpose(const std::array<Vector, 4>& rows, Put&& put)
+[[gnu::always_inline]] inline void transpose(const std::array<Vector, 4>& rows, Put&& put)
 {
   const Vector even_01 = evens(rows[0], rows[1]), even_23 = evens(rows[2], rows[3]);
   const Vector odd_01 = odds(rows[0], rows[1]), odd_23 = odds(rows[2], rows[3]);
