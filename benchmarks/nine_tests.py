@@ -4,8 +4,7 @@
     benchmarks/nine_tests.py BUILD [--threads N] [--times N]
 
 BUILD: a build folder of a commit. The least time of N runs (3) counts. results/nine-tests-INSTRUCTIONS.json beside this file
-(avx2 or avx512, as the build uses) gets it, with the strengths. Grains are joined by their number of neighbours, as when these
-tests were timed first. On a machine that does nothing else.
+(avx2 or avx512, as the build uses) gets it, with the strengths. On a machine that does nothing else.
 """
 
 import argparse
@@ -26,8 +25,7 @@ def run(build, threads):
     with tempfile.TemporaryDirectory() as folder:
         before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
         subprocess.run(
-            [os.path.join(build, "app/feldspar"), "lab", INPUT, "--output", folder + "/out", "--threads", str(threads),
-             "--set", "Flat joint/Coordination number = 4.2"],
+            [os.path.join(build, "app/feldspar"), "lab", INPUT, "--output", folder + "/out", "--threads", str(threads)],
             check=True,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
