@@ -62,7 +62,8 @@ constexpr std::size_t numbers_in_cache = 40000;
 
 /// Load on the grain at a place of the order.
 template <int dim, bool asks_ahead>
-[[gnu::always_inline]] inline Load<dim> load_from_joints(const Joints<dim>& joints, const SumOrder& order, const std::size_t place)
+[[gnu::always_inline]] inline Load<dim> load_from_joints(const Joints<dim>& joints, const SumOrder& order,
+                                                         const std::size_t place)
 {
   constexpr std::size_t size = JointTables<dim>::n_response_rows, ahead = 32;
   const double* const responses = joints.response.at(0, 0);
