@@ -18,7 +18,8 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::uint64_t steps_between_groupings = 256; // of joints; looking takes as long as a tenth of a step
+/// Looking at the groups of joints takes some 2 % of the time of a broken body of 1 948 discs.
+constexpr std::uint64_t steps_between_groupings = 256;
 
 /// The first grain of those that a process has found, which all then know.
 template <int dim>
