@@ -140,11 +140,10 @@ inline Triple<double> tangent_to(const Triple<double>& n)
   return tangent;
 }
 
-/// Coefficients of Rodrigues' formula: R v = c v + s φ × v + q (φ·v) φ.
+/// Coefficients of Rodrigues' formula: R v = v + s φ × v + q φ × (φ × v).
 template <typename Real>
 struct Turn
 {
-  Real cosine;        ///< c = cos|φ|
   Real sine_share;    ///< s = sin|φ|/|φ|
   Real versine_share; ///< q = (1 - cos|φ|)/|φ|²
 };
@@ -158,7 +157,6 @@ Turn<Real> series_turn(const Real& x)
   Turn<Real> turn;
   turn.sine_share = 1.0 - x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0)));
   turn.versine_share = 0.5 - x * (1.0 / 24.0 - x * (1.0 / 720.0 - x * (1.0 / 40320.0)));
-  turn.cosine = 1.0 - x * turn.versine_share;
   return turn;
 }
 
@@ -168,7 +166,7 @@ inline Turn<double> make_turn(const double squared)
   if (squared < small_turn_squared)
     return series_turn(squared);
   const double angle = std::sqrt(squared);
-  return {std::cos(angle), std::sin(angle) / angle, (1.0 - std::cos(angle)) / squared};
+  return {std::sin(angle) / angle, (1.0 - std::cos(angle)) / squared};
 }
 
 inline Turn<simd::Pack> make_turn(const simd::Pack& squared)
@@ -176,21 +174,22 @@ inline Turn<simd::Pack> make_turn(const simd::Pack& squared)
   auto turn = series_turn(squared);
   if (simd::any(!(squared < small_turn_squared)))
     {
-      turn.cosine = simd::Pack([&](const auto i) { return make_turn(double(squared[i])).cosine; });
       turn.sine_share = simd::Pack([&](const auto i) { return make_turn(double(squared[i])).sine_share; });
       turn.versine_share = simd::Pack([&](const auto i) { return make_turn(double(squared[i])).versine_share; });
     }
   return turn;
 }
 
+/// What is added to v is as small as the turn. Terms that stay the same from step to step, such as what v has along φ, would be rounded
+/// the same way each time, and the vector would drift.
 template <typename Real>
 Triple<Real> turned(const Triple<Real>& v, const Triple<Real>& angle, const Turn<Real>& turn)
 {
   const auto across = cross(angle, v);
-  const Real along = turn.versine_share * dot(angle, v);
+  const auto back = cross(angle, across);
   Triple<Real> result;
   for (int c = 0; c < 3; ++c)
-    result[c] = turn.cosine * v[c] + turn.sine_share * across[c] + along * angle[c];
+    result[c] = v[c] + (turn.sine_share * across[c] + turn.versine_share * back[c]);
   return result;
 }
 
