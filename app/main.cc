@@ -33,11 +33,6 @@ namespace
 {
 using namespace feldspar;
 
-std::vector<std::string> names_of_commands_with_input()
-{
-  return mapped<std::string>(commands_with_input, &CommandWithInput::name);
-}
-
 constexpr std::size_t longest_line = 2000; // of standard error, whatever it repeats
 
 /// Prints on standard error in one printable line, without an exception if standard error lies on the disk that is
@@ -91,47 +86,54 @@ public:
   }
 
 private:
+  /// A subcommand that does this, with what a user would type.
+  CLI::App& add(const std::string_view name, const std::string_view description, const std::function<int()>& run,
+                const std::string_view examples = "")
+  {
+    CLI::App& command = *app.add_subcommand(std::string(name), std::string(description));
+    command.callback([this, run] { chosen = run; });
+    if (!examples.empty())
+      command.footer(fmt::format("Examples:\n  {}", examples));
+    return command;
+  }
+
+  /// An option with a value of this type; where there may be several, each has the option before it.
+  template <typename Value>
+  static CLI::Option* add_option(CLI::App& command, const char* name, Value& value, const char* type,
+                                 const char* description)
+  {
+    return command.add_option(name, value, description)->type_name(type)->allow_extra_args(false);
+  }
+
   void add_run(const CommandWithInput& of)
   {
-    CLI::App& command = *app.add_subcommand(std::string(of.name), std::string(of.description));
-    command.add_option("INPUT", common.input, "parameter file, .prm or .json")->required();
-    command.add_option("--output", common.output, "folder of the results (default: INPUT-results-001, ...)")
-      ->type_name("DIR");
+    CLI::App& command = add(
+      of.name, of.description, [this, &of] { return of.run(common); }, of.examples);
+    command.add_option("INPUT", common.input, "parameter file, .prm or .json")->required(!of.runs_long);
+    add_option(command, "--output", common.output, "DIR", "folder of the results (default: INPUT-results-001, ...)");
     command.add_flag("--force", common.force, "write over what is in the folder");
     add_settings(command, common.settings);
     add_threads(command);
     command.add_flag("--quiet", common.quiet, "no progress, and of the results only where they are");
-    command.callback([this, &of] { chosen = [this, &of] { return of.run(common); }; });
-    add_examples(command, of.examples);
-    if (of.runs_long)
-      add_resume(command);
+    if (!of.runs_long)
+      return;
+    CLI::Option* const resume =
+      add_option(command, "--resume", common.resume, "DIR", "take up the run of this folder; instead of INPUT");
+    for (const char* const other : {"INPUT", "--set", "--output", "--force"})
+      command.get_option(other)->excludes(resume);
   }
 
   static CLI::Option* add_settings(CLI::App& command, std::vector<std::string>& settings)
   {
-    return command.add_option("--set", settings, "an entry in place of what INPUT says; may be repeated")
-      ->type_name("'SECTION/ENTRY = VALUE'")
-      ->allow_extra_args(false);
-  }
-
-  void add_resume(CLI::App& command)
-  {
-    CLI::Option* const resume =
-      command.add_option("--resume", common.resume, "take up the run of this folder; instead of INPUT")
-        ->type_name("DIR");
-    command.get_option("INPUT")->required(false)->excludes(resume);
-    command.get_option("--set")->excludes(resume);
-    command.get_option("--output")->excludes(resume);
-    command.get_option("--force")->excludes(resume);
+    return add_option(command, "--set", settings, "'SECTION/ENTRY = VALUE'",
+                      "an entry in place of what INPUT says; may be repeated");
   }
 
   void add_extract(CLI::App& command)
   {
     CLI::Option* const extract =
-      command
-        .add_option("--extract", common.extract,
-                    "write the RVE at a point for `feldspar rve` and ParaView; INPUT is the folder of a run")
-        ->type_name("CELL:POINT");
+      add_option(command, "--extract", common.extract, "CELL:POINT",
+                 "write the RVE at a point for `feldspar rve` and ParaView; INPUT is the folder of a run");
     for (const char* const other : {"--resume", "--output", "--force"})
       command.get_option(other)->excludes(extract);
     extract->needs(command.get_option("INPUT"));
@@ -139,98 +141,77 @@ private:
 
   void add_packings(CLI::App& command)
   {
-    auto names = mapped<std::string>(packing_forms, &PackingForm::name);
-    command
-      .add_option("--packing", common.packings,
-                  "write the grains into packings/ too: yade (lines x y z radius) or lammps (data with bonds)")
-      ->type_name("FORM")
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(names).description(""));
+    add_option(command, "--packing", common.packings, "FORM",
+               "write the grains into packings/ too: yade (lines x y z radius) or lammps (data with bonds)")
+      ->check(CLI::IsMember(mapped<std::string>(packing_forms, &PackingForm::name)).description(""));
   }
 
   void add_threads(CLI::App& command)
   {
-    command.add_option("--threads", n_threads, "how many to use (default: all cores)")
-      ->type_name("N")
+    add_option(command, "--threads", n_threads, "N", "how many to use (default: all cores)")
       ->check(CLI::Range(1u, 4096u).description("")); // its range would stand beside the N
   }
 
   void add_new()
   {
-    CLI::App& command = *app.add_subcommand("new", "write a commented input to begin with, and a reference to fill in");
+    CLI::App& command = add(
+      "new", "write a commented input to begin with, and a reference to fill in", [this] { return run_new(fresh); },
+      "feldspar new rock\n  feldspar new sample --output granite");
     command.add_option("NAME", fresh.name, fmt::format("{}", fmt::join(names_of_templates(), ", ")))
       ->required()
       ->check(CLI::IsMember(names_of_templates()).description(""));
-    command.add_option("--output", fresh.output, "folder of both files (default: the current one)")->type_name("DIR");
-    command.callback([this] { chosen = [this] { return run_new(fresh); }; });
-    add_examples(command, "feldspar new rock\n  feldspar new sample --output granite");
+    add_option(command, "--output", fresh.output, "DIR", "folder of both files (default: the current one)");
   }
 
   void add_report()
   {
-    CLI::App& command = *app.add_subcommand("report", "(re)make the comparison report from result folders");
+    CLI::App& command = add(
+      "report", "(re)make the comparison report from result folders", [this] { return run_report(report); },
+      "feldspar report granite slate --reference rock.json\n"
+      "  feldspar report granite --curve core.csv\n"
+      "  feldspar report --curve disc.csv --curve-test brazilian --curve-size '50, 25 mm'\n"
+      "  feldspar report granite --catalogue emission.csv\n"
+      "  feldspar report granite --film");
     command.add_option("RESULTS", report.result_folders,
                        "folders of `feldspar lab` and `multiscale`; each is a series of its own");
-    command.add_option("--curve", report.curves, "a stress-strain curve measured in a laboratory; may be repeated")
-      ->type_name("CSV")
-      ->allow_extra_args(false);
-    CLI::Option* const curve = command.get_option("--curve");
-    command
-      .add_option(
-        "--curve-size", report.curve_sizes,
-        "diameter and height (of a disc thickness) of its specimen, for forces and displacements: \"50, 100 mm\"; "
-        "once for all curves, or once for each")
-      ->type_name("SIZE")
-      ->allow_extra_args(false)
+    CLI::Option* const curve = add_option(command, "--curve", report.curves, "CSV",
+                                          "a stress-strain curve measured in a laboratory; may be repeated");
+    add_option(
+      command, "--curve-size", report.curve_sizes, "SIZE",
+      "diameter and height (of a disc thickness) of its specimen, for forces and displacements: \"50, 100 mm\"; "
+      "once for all curves, or once for each")
       ->needs(curve);
-    command
-      .add_option(
-        "--curve-test", report.curve_tests,
-        "the test of a curve: direct_tension, brazilian, or one of compression (default); once for all curves, "
-        "or once for each")
-      ->type_name("TEST")
-      ->allow_extra_args(false)
+    add_option(command, "--curve-test", report.curve_tests, "TEST",
+               "the test of a curve: direct_tension, brazilian, or one of compression (default); once for all curves, "
+               "or once for each")
       ->needs(curve);
-    command
-      .add_option("--catalogue", report.catalogues,
-                  "acoustic emission recorded in a laboratory, a row for each event or hit; may be repeated")
-      ->type_name("CSV")
-      ->allow_extra_args(false);
-    command
-      .add_option("--reference", report.reference, "figures of the rock (default: those the runs were set beside)")
-      ->type_name("JSON");
-    command
-      .add_option("--output", report.output,
-                  "folder of the report (default: the folder itself if there is one, else report-results-001, ...)")
-      ->type_name("DIR");
+    add_option(command, "--catalogue", report.catalogues, "CSV",
+               "acoustic emission recorded in a laboratory, a row for each event or hit; may be repeated");
+    add_option(command, "--reference", report.reference, "JSON",
+               "figures of the rock (default: those the runs were set beside)");
+    add_option(command, "--output", report.output, "DIR",
+               "folder of the report (default: the folder itself if there is one, else report-results-001, ...)");
     command.add_flag("--film", report.film, "write the cracking of the tests as film.webp too, by Chromium");
-    command
-      .add_option(
-        "--quakeml", report.quakeml,
-        "write the acoustic emission of the tests into quakeml/ too; latitude, longitude, depth and time of the "
-        "origin of the axes: \"41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z\"")
-      ->type_name("ORIGIN");
+    add_option(command, "--quakeml", report.quakeml, "ORIGIN",
+               "write the acoustic emission of the tests into quakeml/ too; latitude, longitude, depth and time of the "
+               "origin of the axes: \"41.0 N, 97.0 E, 500 m, 2026-01-01T00:00:00Z\"");
     command.add_flag("--force", report.force, "write over what is in the folder");
     add_threads(command);
     command.add_flag("--quiet", report.quiet, "do not say what is missing in it");
-    command.callback([this] { chosen = [this] { return run_report(report); }; });
-    add_examples(command, "feldspar report granite slate --reference rock.json\n"
-                          "  feldspar report granite --curve core.csv\n"
-                          "  feldspar report --curve disc.csv --curve-test brazilian --curve-size '50, 25 mm'\n"
-                          "  feldspar report granite --catalogue emission.csv\n"
-                          "  feldspar report granite --film");
   }
 
   void add_parameters()
   {
-    CLI::App& command = *app.add_subcommand("parameters", "every parameter: unit, default, range, meaning");
+    CLI::App& command = add(
+      "parameters", "every parameter: unit, default, range, meaning", [this] { return run_parameters(parameters); },
+      "feldspar parameters Tests\n  feldspar parameters friction\n"
+      "  feldspar parameters --check granite.prm --for lab");
     CLI::Option* const section =
       command.add_option("SECTION", parameters.section, "only this one, or the entries that have this word");
-    CLI::Option* const check = command.add_option("--check", parameters.check, "only check this input file");
-    check->type_name("INPUT");
-    command.add_option("--for", parameters.check_for, "whether this command takes it (default: say which do)")
-      ->type_name("COMMAND")
-      ->check(CLI::IsMember(names_of_commands_with_input()).description(""))
+    CLI::Option* const check = add_option(command, "--check", parameters.check, "INPUT", "only check this input file");
+    add_option(command, "--for", parameters.check_for, "COMMAND",
+               "whether this command takes it (default: say which do)")
+      ->check(CLI::IsMember(mapped<std::string>(commands_with_input, &CommandWithInput::name)).description(""))
       ->needs(check);
     add_settings(command, parameters.settings)->needs(check);
     command
@@ -239,9 +220,6 @@ private:
       ->excludes(section)
       ->excludes(check);
     command.add_flag("--markdown", parameters.markdown, "as tables for docs/parameters.md");
-    command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
-    add_examples(command, "feldspar parameters Tests\n  feldspar parameters friction\n"
-                          "  feldspar parameters --check granite.prm --for lab");
   }
 
   /// The help on this command; null: on the program.
@@ -253,14 +231,10 @@ private:
   /// A subcommand that prints a text.
   CLI::App& add_text(const char* name, const char* description, const std::function<std::string()>& text)
   {
-    CLI::App& command = *app.add_subcommand(name, description);
-    command.callback([this, text] {
-      chosen = [text] {
-        print_result("{}", text());
-        return 0;
-      };
+    return add(name, description, [text] {
+      print_result("{}", text());
+      return 0;
     });
-    return command;
   }
 
   void add_texts()
@@ -273,12 +247,6 @@ private:
     add_text("manual", "the manual page, for man: feldspar manual | man -l -", [this] { return manual_page(app); });
     add_text("completion", "completion for bash: source <(feldspar completion)",
              [this] { return bash_completion(app); });
-  }
-
-  /// With what a user would type.
-  static void add_examples(CLI::App& command, const std::string_view examples)
-  {
-    command.footer(fmt::format("Examples:\n  {}", examples));
   }
 
   /// Prints help or version, which CLI11 throws too, or what is wrong.
@@ -317,11 +285,10 @@ private:
 
   void check_name(const std::string_view name) const
   {
-    std::vector<std::string> names;
-    for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
-      names.push_back(command->get_name());
+    const auto names =
+      mapped<std::string_view>(app.get_subcommands([](const CLI::App*) { return true; }), &CLI::App::get_name);
     if (!contains(names, name))
-      throw InputError("{}: no such command{}", excerpt(name), suggestion(name, {names.begin(), names.end()}));
+      throw InputError("{}: no such command{}", excerpt(name), suggestion(name, names));
   }
 
   CLI::App app{"Feldspar: laboratory tests on rock made of grains and joints", "feldspar"};

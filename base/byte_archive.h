@@ -68,12 +68,6 @@ public:
     all += stored;
   }
 
-  template <typename T>
-  void bytes(const std::string& name, const std::vector<T>& values)
-  {
-    array(name, values);
-  }
-
   std::string all;
 };
 
@@ -110,12 +104,6 @@ public:
     take(name, stored.data(), stored.size());
   }
 
-  template <typename T>
-  void bytes(const std::string& name, std::vector<T>& values)
-  {
-    array(name, values);
-  }
-
   bool has_ended() const { return position == all.size(); }
 
 private:
@@ -146,18 +134,8 @@ class NothingWriter
 public:
   static constexpr bool reads = false;
 
-  template <typename T>
-  void value(const std::string& /*name*/, const T& /*stored*/)
-  {
-  }
-  template <typename T>
-  void array(const std::string& /*name*/, const T& /*values*/)
-  {
-  }
-  template <typename T>
-  void bytes(const std::string& /*name*/, const T& /*values*/)
-  {
-  }
+  void value(const std::string& /*name*/, const auto& /*stored*/) {}
+  void array(const std::string& /*name*/, const auto& /*values*/) {}
 };
 
 /// A copy is described, because one description serves both ways, and reading changes the state.

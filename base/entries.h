@@ -81,18 +81,6 @@ struct EntryFlags
 template <typename Parameters, typename T>
 struct Place
 {
-  Place(T Parameters::*const member)
-    : get(member)
-    , at(member)
-  {
-  }
-
-  Place(std::function<const T&(const Parameters&)> reader, std::function<T&(Parameters&)> writer)
-    : get(std::move(reader))
-    , at(std::move(writer))
-  {
-  }
-
   std::function<const T&(const Parameters&)> get;
   std::function<T&(Parameters&)> at;
 };
@@ -158,7 +146,8 @@ Entry<P> quantity(const std::string_view name, double P::*const member, const Me
                   const std::string_view unit, const Range& range, const std::string_view meaning,
                   const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::Number{member, measure, unit, range}, meaning, flags, id_of_member(member)};
+  return {name, typename Entry<P>::Number{{member, member}, measure, unit, range}, meaning, flags,
+          id_of_member(member)};
 }
 
 template <typename P>
@@ -173,7 +162,8 @@ Entry<P> optional_quantity(const std::string_view name, std::optional<double> P:
                            const std::string_view unit, const Range& range, const std::string_view meaning,
                            const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::OptionalNumber{member, measure, unit, range}, meaning, flags, id_of_member(member)};
+  return {name, typename Entry<P>::OptionalNumber{{member, member}, measure, unit, range}, meaning, flags,
+          id_of_member(member)};
 }
 
 template <typename P>
@@ -187,14 +177,14 @@ template <typename P>
 Entry<P> integer(const std::string_view name, unsigned int P::*const member, const Range& range,
                  const std::string_view meaning, const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::Integer{member, range}, meaning, flags, id_of_member(member)};
+  return {name, typename Entry<P>::Integer{{member, member}, range}, meaning, flags, id_of_member(member)};
 }
 
 template <typename P>
 Entry<P> file(const std::string_view name, std::string P::*const member, const std::string_view meaning,
               const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::File{member}, meaning, flags, id_of_member(member)};
+  return {name, typename Entry<P>::File{{member, member}}, meaning, flags, id_of_member(member)};
 }
 
 /// An entry of a form of its own: `read` makes the value of a text or throws InputError, `write` the text of a value.
@@ -237,8 +227,8 @@ Entry<Whole> within(const Entry<Parameters>& entry, const Get& get, const At& at
   using From = Entry<Parameters>;
   using To = Entry<Whole>;
   const auto moved = [&]<typename T>(const Place<Parameters, T>& place) {
-    return Place<Whole, T>([=](const Whole& whole) -> const T& { return place.get(get(whole)); },
-                           [=](Whole& whole) -> T& { return place.at(at(whole)); });
+    return Place<Whole, T>{[=](const Whole& whole) -> const T& { return place.get(get(whole)); },
+                           [=](Whole& whole) -> T& { return place.at(at(whole)); }};
   };
   using Value = decltype(To::value);
   Value value = std::visit(

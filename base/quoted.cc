@@ -1,6 +1,7 @@
 #include "base/quoted.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -18,22 +19,15 @@ std::size_t length_of_character(const std::string_view text)
   const std::uint8_t first = byte(0);
   if (first < 0x80)
     return 1;
-  if (first >= 0xc2 && first <= 0xdf)
-    return continues(1) ? 2 : 0;
-  if (first >= 0xe0 && first <= 0xef)
-    {
-      const bool overlong = first == 0xe0 && byte(1) < 0xa0;
-      const bool surrogate = first == 0xed && byte(1) > 0x9f;
-      const bool no_character = first == 0xef && byte(1) == 0xbf && byte(2) >= 0xbe; // U+FFFE, U+FFFF
-      return continues(1) && continues(2) && !overlong && !surrogate && !no_character ? 3 : 0;
-    }
-  if (first >= 0xf0 && first <= 0xf4)
-    {
-      const bool overlong = first == 0xf0 && byte(1) < 0x90;
-      const bool beyond_unicode = first == 0xf4 && byte(1) > 0x8f;
-      return continues(1) && continues(2) && continues(3) && !overlong && !beyond_unicode ? 4 : 0;
-    }
-  return 0;
+  const std::size_t n = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  for (std::size_t k = 1; k < n; ++k)
+    if (!continues(k))
+      return 0;
+  const bool overlong = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xf0 && byte(1) < 0x90);
+  const bool surrogate = first == 0xed && byte(1) > 0x9f;
+  const bool no_character = first == 0xef && byte(1) == 0xbf && byte(2) >= 0xbe; // U+FFFE, U+FFFF
+  const bool beyond_unicode = first == 0xf4 && byte(1) > 0x8f;
+  return overlong || surrogate || no_character || beyond_unicode ? 0 : n;
 }
 
 bool is_control(const std::string_view character)
@@ -99,17 +93,11 @@ std::string shortened(std::string_view text, const std::size_t most_characters)
   std::vector<std::string> characters;
   while (!text.empty())
     characters.push_back(take_character(text));
-  const std::size_t n = characters.size();
-  const std::size_t n_first = n <= most_characters ? n : 3 * most_characters / 4;
-  const std::size_t n_last = n <= most_characters ? 0 : most_characters - n_first - 1;
-  std::string result;
-  for (std::size_t k = 0; k < n_first; ++k)
-    result += characters[k];
-  if (n_first < n)
-    result += "…";
-  for (std::size_t k = n - n_last; k < n; ++k)
-    result += characters[k];
-  return result;
+  if (characters.size() <= most_characters)
+    return fmt::format("{}", fmt::join(characters, ""));
+  const auto n_first = std::ptrdiff_t(3 * most_characters / 4), n_last = std::ptrdiff_t(most_characters) - n_first - 1;
+  return fmt::format("{}…{}", fmt::join(characters.begin(), characters.begin() + n_first, ""),
+                     fmt::join(characters.end() - n_last, characters.end(), ""));
 }
 
 std::string in_quotes(const std::string_view text) { return '"' + excerpt(text) + '"'; }

@@ -38,16 +38,11 @@ std::string objection_to_kind(const mode_t mode)
 int open_regular(const std::filesystem::path& file)
 {
   std::string objection = objection_to_reading(file);
-  int descriptor = -1;
+  const int descriptor = objection.empty() ? open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC) : -1;
+  struct stat opened = {};
   if (objection.empty())
-    {
-      descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-      struct stat opened = {};
-      if (descriptor < 0 || fstat(descriptor, &opened) != 0)
-        objection = cannot_be_read(errno);
-      else
-        objection = objection_to_kind(opened.st_mode);
-    }
+    objection =
+      descriptor < 0 || fstat(descriptor, &opened) != 0 ? cannot_be_read(errno) : objection_to_kind(opened.st_mode);
   if (objection.empty())
     return descriptor;
   if (descriptor >= 0)

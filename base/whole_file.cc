@@ -1,7 +1,5 @@
 #include "base/whole_file.h"
 
-#include "base/write_at.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,24 +13,14 @@ namespace feldspar
 {
 namespace
 {
-struct Listener
-{
-  std::mutex mutex;
-  std::function<void(const std::filesystem::path&)> hear;
-};
-
-Listener& listener()
-{
-  static Listener of_process;
-  return of_process;
-}
+std::mutex telling;
+std::function<void(const std::filesystem::path&)> listener; // of the process
 
 void tell(const std::filesystem::path& file)
 {
-  Listener& of_process = listener();
-  const std::lock_guard lock(of_process.mutex);
-  if (of_process.hear)
-    of_process.hear(file);
+  const std::lock_guard lock(telling);
+  if (listener)
+    listener(file);
 }
 
 OutputError cannot_be_written(const std::filesystem::path& file, const std::string& why)
@@ -49,6 +37,19 @@ int open_new(const std::filesystem::path& file)
   return open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 } // namespace
+
+int write_at(const int descriptor, std::uint64_t place, std::string_view content)
+{
+  while (!content.empty())
+    if (const ssize_t n = pwrite(descriptor, content.data(), content.size(), off_t(place)); n >= 0)
+      {
+        content.remove_prefix(std::size_t(n));
+        place += std::uint64_t(n);
+      }
+    else if (errno != EINTR)
+      return errno;
+  return 0;
+}
 
 void write_whole_file(const std::filesystem::path& file, const std::string_view content)
 {
@@ -100,8 +101,7 @@ void make_way_for(const std::filesystem::path& file)
 
 void hear_of_files(std::function<void(const std::filesystem::path&)> hear)
 {
-  Listener& of_process = listener();
-  const std::lock_guard lock(of_process.mutex);
-  of_process.hear = std::move(hear);
+  const std::lock_guard lock(telling);
+  listener = std::move(hear);
 }
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -12,6 +13,10 @@ struct OutputError : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
+
+/// Writes all of a content at a place of an open file. Returns 0 or the error number of the system, which streams of the
+/// standard library do not tell.
+int write_at(int descriptor, std::uint64_t place, std::string_view content);
 
 /// Writes a file whole or not at all, by way of a temporary one that is new. A link in the place of either is replaced, never
 /// followed. Throws OutputError, which names file and cause.

@@ -77,19 +77,18 @@ double log_density(const ResponseModel& model, const std::vector<Target>& target
 
 /// Covariance of the normal distribution that is near the posterior at its best place: (Jᵀ W J + prior)⁻¹, by central
 /// differences.
-std::vector<std::vector<double>> nearby_covariance(const ResponseModel& model, const std::vector<Target>& targets,
-                                                   const Coordinates& coordinates, const Place& best)
+Eigen::MatrixXd nearby_covariance(const ResponseModel& model, const std::vector<Target>& targets,
+                                  const Coordinates& coordinates, const Place& best)
 {
   const std::vector<double> centre = coordinates.of(best);
-  const std::size_t n = centre.size();
-  const std::size_t n_unknowns = model.unknowns().size();
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(Eigen::Index(n), Eigen::Index(n));
-  for (std::size_t k = 0; k < n; ++k)
-    information(Eigen::Index(k), Eigen::Index(k)) = k < n_unknowns ? 12.0 : 1.0; // even over the unit; a factor of e
+  const auto n = Eigen::Index(centre.size());
+  Eigen::VectorXd prior = Eigen::VectorXd::Ones(n);                    // a factor of e
+  prior.head(Eigen::Index(model.unknowns().size())).setConstant(12.0); // even over the unit
+  Eigen::MatrixXd information = prior.asDiagonal();
   for (const Target& target : targets)
     {
-      Eigen::VectorXd slope(static_cast<Eigen::Index>(n));
-      for (std::size_t k = 0; k < n; ++k)
+      Eigen::VectorXd slope(n);
+      for (std::size_t k = 0; k < centre.size(); ++k)
         {
           constexpr double step = 1e-3;
           std::vector<double> x = centre;
@@ -100,12 +99,7 @@ std::vector<std::vector<double>> nearby_covariance(const ResponseModel& model, c
         }
       information += slope * slope.transpose() / variance(model, target, best.point);
     }
-  const Eigen::MatrixXd covariance = information.inverse();
-  std::vector<std::vector<double>> result(n, std::vector<double>(n));
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k)
-      result[i][k] = covariance(Eigen::Index(i), Eigen::Index(k));
-  return result;
+  return information.inverse();
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b)

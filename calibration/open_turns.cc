@@ -154,7 +154,7 @@ double Surrogate::deviation(const UnitPoint& point) const
 
 std::vector<std::vector<double>> metropolis(const FunctionOfPoint& log_density, const std::vector<double>& lower,
                                             const std::vector<double>& upper, const std::vector<double>& start,
-                                            const std::vector<std::vector<double>>& covariance, const std::size_t n,
+                                            const Eigen::MatrixXd& covariance, const std::size_t n,
                                             const std::uint64_t seed)
 {
   const std::size_t dimension = start.size();
@@ -162,7 +162,7 @@ std::vector<std::vector<double>> metropolis(const FunctionOfPoint& log_density, 
   OT::CovarianceMatrix of_step(dimension);
   for (std::size_t i = 0; i < dimension; ++i)
     for (std::size_t k = 0; k <= i; ++k)
-      of_step(i, k) = 2.38 * 2.38 / double(dimension) * covariance[i][k];
+      of_step(i, k) = 2.38 * 2.38 / double(dimension) * covariance(Eigen::Index(i), Eigen::Index(k));
   constexpr std::size_t thinning = 5; // neighbours of a chain are much alike
   OT::RandomWalkMetropolisHastings chain(OT::Function(OpenTurnsFunction(log_density, dimension)),
                                          OT::Interval(as_point(lower), as_point(upper)), as_point(start),

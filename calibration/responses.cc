@@ -1,15 +1,15 @@
 #include "calibration/responses.h"
 
-#include "base/prefixes.h"
-#include "laboratory/named_entries.h"
-
 #include "base/append.h"
 #include "base/contains.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
+#include "base/prefixes.h"
+#include "laboratory/named_entries.h"
 #include "results/fits/hoek_brown.h"
 #include "results/quantities.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -85,16 +85,6 @@ void set_deviation(Target& target, const ReferenceValue& given, const double tol
 }
 } // namespace
 
-double Response::in_model(const double si_value) const
-{
-  return scale == ResponseScale::none ? si_value : std::log(si_value);
-}
-
-double Response::in_si(const double model_value) const
-{
-  return scale == ResponseScale::none ? model_value : std::exp(model_value);
-}
-
 std::vector<Response> responses(const std::vector<TestCase>& programme, const CalibrationParameters& wanted)
 {
   // In the plane an elastic body could have up to one; specimens that do not crack have a third at most.
@@ -162,11 +152,9 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
       const auto found = std::ranges::find(responses, name, &Response::name);
       if (found == responses.end())
         {
-          std::string known;
-          for (const Response& one : responses)
-            known += (known.empty() ? "" : ", ") + one.name;
           throw InputError("{}: no test of {} gives {}; they give {}", input_entries::targets.text(),
-                           input_entries::test_list.text(), name, known);
+                           input_entries::test_list.text(), name,
+                           fmt::join(mapped<std::string>(responses, &Response::name), ", "));
         }
       if (!given(*found))
         throw InputError("{}: the experiment of the reference file has no {}", input_entries::targets.text(),

@@ -30,8 +30,8 @@ struct Response
 
   /// The scatter of a response is a share of it: responses are compared by logarithms. Poisson's ratio, which may be 0, is
   /// not.
-  double in_model(double si_value) const;
-  double in_si(double model_value) const;
+  double in_model(double si_value) const { return scale == ResponseScale::none ? si_value : std::log(si_value); }
+  double in_si(double model_value) const { return scale == ResponseScale::none ? model_value : std::exp(model_value); }
   /// A small share of a value is this times the share in the model.
   double per_share(double si_value) const { return scale == ResponseScale::none ? std::abs(si_value) : 1.0; }
 };

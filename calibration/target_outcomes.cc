@@ -1,5 +1,7 @@
 #include "calibration/target_outcomes.h"
 
+#include "base/mapped.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,9 +25,6 @@ std::optional<double> share(const TargetOutcome& outcome, std::optional<double> 
   const auto value = outcome.reached ? *outcome.reached.*figure : std::nullopt;
   return value ? std::optional(*value / std::abs(outcome.target.value)) : std::nullopt;
 }
-
-/// Titles have commas of their own.
-std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, "; ")); }
 } // namespace
 
 std::vector<TargetOutcome> outcomes_of(const std::vector<TestedPoint>& points, const std::vector<Target>& targets,
@@ -78,10 +77,8 @@ TargetVerdict verdict_on(const TargetOutcome& outcome, const double tolerance)
 
 TargetVerdict verdict_on(const std::vector<TargetOutcome>& outcomes, const double tolerance)
 {
-  std::vector<TargetVerdict> verdicts;
-  for (const TargetOutcome& outcome : outcomes)
-    verdicts.push_back(verdict_on(outcome, tolerance));
-  return feldspar::verdict_on(verdicts);
+  return feldspar::verdict_on(
+    mapped<TargetVerdict>(outcomes, [&](const TargetOutcome& outcome) { return verdict_on(outcome, tolerance); }));
 }
 
 bool is_nearly_met(const TargetOutcome& outcome, const double tolerance)
@@ -113,19 +110,18 @@ bool is_worth_another_round(const std::vector<TargetOutcome>& outcomes, const do
 
 std::string nearest_in_words(const std::vector<TargetOutcome>& outcomes, const ResponseModel& model)
 {
-  std::vector<std::string> words;
-  for (const TargetOutcome& outcome : outcomes)
-    words.push_back(in_words(outcome, model));
+  const auto words =
+    mapped<std::string>(outcomes, [&](const TargetOutcome& outcome) { return in_words(outcome, model); });
   return fmt::format("these targets cannot be reached together between the bounds of section Calibration; nearest come "
                      "{}",
-                     listed(words));
+                     fmt::join(words, "; ")); // titles have commas of their own
 }
 
 std::string statement_of(const std::vector<TargetOutcome>& outcomes, const ResponseModel& model, const double tolerance)
 {
-  std::vector<TargetMean> means;
-  for (const TargetOutcome& outcome : outcomes)
-    means.push_back(mean_of(outcome, model.response(outcome.target.response).title));
-  return statement_on(means, tolerance);
+  const auto mean = [&](const TargetOutcome& outcome) {
+    return mean_of(outcome, model.response(outcome.target.response).title);
+  };
+  return statement_on(mapped<TargetMean>(outcomes, mean), tolerance);
 }
 } // namespace feldspar::calibration

@@ -1,4 +1,4 @@
-#include "interfaces/job.h"
+#include "interfaces/points.h"
 
 #include <algorithm>
 #include <cctype>

@@ -94,4 +94,7 @@ private:
   };
   std::unordered_map<std::uint64_t, Point, Place> points;
 };
+
+/// The input of a material in the working folder; names in the input of a job may have lost their case. Throws Error.
+std::string input_file_of(const std::string& material);
 } // namespace feldspar::interfaces

@@ -2,12 +2,15 @@
 
 #include "laboratory/record.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// The looks of a test, for pictures; no figure is read off them later.
@@ -90,5 +93,21 @@ struct TestAppearance
 };
 
 /// Fragments of the grains; none without grains.
-std::optional<Fragments> fragments_of(const std::vector<GrainPicture>& grains, int dimension);
+inline std::optional<Fragments> fragments_of(const std::vector<GrainPicture>& grains, const int dimension)
+{
+  std::map<std::uint32_t, std::pair<std::uint64_t, double>> fragments; // grains, and volume
+  double all = 0.0;
+  for (const auto& grain : grains)
+    {
+      auto& [n_grains, size] = fragments[grain.fragment];
+      ++n_grains;
+      const double volume = std::pow(grain.radius, dimension);
+      size += volume;
+      all += volume;
+    }
+  if (fragments.empty())
+    return std::nullopt;
+  const auto n = std::ranges::count_if(fragments, [](const auto& f) { return f.second.first > 1; });
+  return Fragments{std::uint64_t(n), fragments.begin()->second.second / all};
+}
 } // namespace feldspar

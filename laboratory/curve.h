@@ -3,6 +3,7 @@
 #include "laboratory/column.h"
 #include "laboratory/energies.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -25,6 +26,8 @@ struct CurveSample
   std::uint64_t n_shear_cracks = 0;
   double unbalanced_force_ratio = 0.0;
   Energies energies;
+
+  std::uint64_t n_cracks() const { return n_tension_cracks + n_shear_cracks; }
 };
 
 template <double Energies::*member>
@@ -71,4 +74,13 @@ inline constexpr Column<CurveSample> curve_columns[] = {
                                           only_of_samples | added_later),
   energy_column<&Energies::redistribution>("redistribution_energy_J", "released between finite elements after breaks",
                                            only_of_samples | added_later)};
+
+/// The name of a column whose number in this row is infinite, or no number where every body has one; empty: none.
+inline std::string_view not_finite_in(const CurveSample& row)
+{
+  for (const Column<CurveSample>& column : curve_columns)
+    if (const double value = column.get(row); !std::isfinite(value) && !(std::isnan(value) && column.is(perhaps_nan)))
+      return column.name;
+  return {};
+}
 } // namespace feldspar

@@ -18,27 +18,18 @@ struct Energies
   double redistribution = 0.0;   ///< set free between finite elements on their way to equilibrium after breaks
 
   /// Boundary work and the energy at the start less all they went into [J].
-  double unaccounted() const;
+  double unaccounted() const
+  {
+    return boundary_work + kinetic_at_start - kinetic - strain - slip - released - damping - redistribution;
+  }
   /// |unaccounted| over the sum of all terms.
-  double imbalance() const;
+  double imbalance() const
+  {
+    const double terms = std::abs(boundary_work) + std::abs(kinetic) + std::abs(strain) + std::abs(slip) +
+                         std::abs(released) + std::abs(damping) + std::abs(kinetic_at_start) + std::abs(redistribution);
+    return terms != 0.0 ? std::abs(unaccounted()) / terms : 0.0;
+  }
   /// |unaccounted| over the boundary work.
-  double imbalance_over_work() const;
+  double imbalance_over_work() const { return boundary_work != 0.0 ? std::abs(unaccounted() / boundary_work) : 0.0; }
 };
-
-inline double Energies::unaccounted() const
-{
-  return boundary_work + kinetic_at_start - kinetic - strain - slip - released - damping - redistribution;
-}
-
-inline double Energies::imbalance_over_work() const
-{
-  return boundary_work != 0.0 ? std::abs(unaccounted() / boundary_work) : 0.0;
-}
-
-inline double Energies::imbalance() const
-{
-  const double terms = std::abs(boundary_work) + std::abs(kinetic) + std::abs(strain) + std::abs(slip) +
-                       std::abs(released) + std::abs(damping) + std::abs(kinetic_at_start) + std::abs(redistribution);
-  return terms != 0.0 ? std::abs(unaccounted()) / terms : 0.0;
-}
 } // namespace feldspar

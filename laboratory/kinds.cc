@@ -1,5 +1,7 @@
 #include "laboratory/kinds.h"
 
+#include "base/mapped.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,10 +47,7 @@ bool any_takes_confining_pressure(const std::vector<TestKind>& kinds)
 
 std::string names(const std::vector<TestKind>& kinds)
 {
-  std::string text;
-  for (const TestKind& kind : kinds)
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", kind.name);
-  return text;
+  return fmt::format("{}", fmt::join(mapped<std::string_view>(kinds, &TestKind::name), ", "));
 }
 
 std::string name(const TestBody body) { return body == TestBody::grains ? "grains" : "finite_elements"; }

@@ -4,7 +4,6 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/table/csv.h"
-#include "base/text.h"
 
 #include <fmt/format.h>
 

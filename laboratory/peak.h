@@ -54,9 +54,10 @@ public:
   /// than 1 %, or than twice the standard deviation about it.
   bool is_level() const;
 
-private:
   TestKind kind;
-  double pressure;
+  double pressure; ///< compression positive [Pa]
+
+private:
   PeakDemands wanted;
   std::vector<double> strains;   ///< of each row
   std::vector<double> ways;      ///< of the strain up to each row, back and forth

@@ -96,7 +96,6 @@ bool StageWalk::is_at_end_of_stage(const StageMoment& now) const
 bool StageWalk::is_over(const std::vector<CurveSample>& curve, const StageMoment& now)
 {
   const LoadingStage& running = stage();
-  const CurveSample& row = curve.back();
   StageRecord& record = begun.back();
   record.last_row = curve.size() - 1;
   if (now.axial_stress > highest_stress)
@@ -135,8 +134,7 @@ bool StageWalk::is_over(const std::vector<CurveSample>& curve, const StageMoment
   if (!running.axial_stress || running.duration || *running.axial_stress <= start.axial_stress)
     return false;
   // Only where cracks have opened in the stage, and well above the waves of its first rows.
-  const CurveSample& first = curve[record.first_row];
-  const bool has_cracked = row.n_tension_cracks + row.n_shear_cracks > first.n_tension_cracks + first.n_shear_cracks;
+  const bool has_cracked = curve.back().n_cracks() > curve[record.first_row].n_cracks();
   const double risen = highest_stress - start.axial_stress;
   const double share = wanted.stop_stress_over_peak.value_or(0.5);
   const double last_strain = wanted.stop_strain_over_peak_strain * strain_at_highest;

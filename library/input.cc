@@ -56,9 +56,8 @@ GivenEntry entry_of(const std::string_view name, const std::string_view value)
   const std::size_t slash = name.find('/');
   if (slash == name.npos)
     throw InputError("{}: write \"Section/Entry\", such as \"Specimen/Width\"", name);
-  GivenEntry given{std::string(name.substr(0, slash)), std::string(name.substr(slash + 1)), std::string(value),
-                   "input"};
-  check_section(given.section, given.place);
+  GivenEntry given{std::string(name), std::string(value), "input"};
+  check_section(std::string(name.substr(0, slash)), given.place);
   check_name(given);
   return given;
 }
@@ -86,7 +85,7 @@ Input::Input(const std::string& file)
     const GivenEntries values{std::filesystem::path(file)};
     of->folder = std::filesystem::absolute(file).parent_path();
     for (const GivenEntry& one : values.all())
-      of->given.emplace_back(one.section + "/" + one.entry, one.value);
+      of->given.emplace_back(one.name, one.value);
     read_input(values, of->folder); // errors name the lines of the file
   });
 }
@@ -111,7 +110,7 @@ void Input::set(const std::string_view entry, const std::string_view value)
     feldspar::Input scratch;
     scratch.folder = of->folder;
     rephrased([&] { find_parameter(entry)->read(scratch, value); },
-              [&](const std::string& what) { return GivenEntries({given}).error(given.section, given.entry, what); });
+              [&](const std::string& what) { return GivenEntries({given}).error(given.name, what); });
   });
   const auto known = std::ranges::find_if(of->given, [&](const auto& one) { return one.first == entry; });
   if (known == of->given.end())
@@ -122,10 +121,7 @@ void Input::set(const std::string_view entry, const std::string_view value)
 
 std::string Input::get(const std::string_view entry) const
 {
-  return guarded([&] {
-    const GivenEntry wanted = entry_of(entry, "");
-    return GivenEntries(entries_of(of->given)).value(wanted.section, wanted.entry);
-  });
+  return guarded([&] { return GivenEntries(entries_of(of->given)).value(entry_of(entry, "").name); });
 }
 
 void Input::unset(const std::string_view entry)

@@ -10,7 +10,7 @@
 #include "library/states.h"
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/csv_tables.h"
-#include "results/folder/summary.h"
+#include "results/folder/result_folder.h"
 #include "results/folder/table_columns.h"
 
 #include <fmt/format.h>
@@ -75,10 +75,7 @@ void check_stage(const LoadingStage& stage, const LoadingStage& before)
   if (const std::string what = objection(stage, &before); !what.empty())
     throw InputError(what);
 }
-} // namespace
 
-namespace
-{
 /// A number that two tests hardly share: entries, grains and joints.
 std::uint64_t fingerprint_of(const Specimen& specimen, const Input& input)
 {

@@ -88,11 +88,8 @@ py::tuple update(feldspar::Volumes& volumes, const Array& strains, const std::ui
   const std::span<double> stress(stresses.mutable_data(), std::size_t(stresses.size()));
   const std::span<double> tangent(tangents.mutable_data(), std::size_t(tangents.size()));
   const std::span<const double> strain = span_of(strains);
-  std::uint64_t token = 0;
-  {
-    const py::gil_scoped_release released;
-    token = volumes.update(strain, parent, stress, tangent, bonds_break, signals());
-  }
+  const std::uint64_t token =
+    waiting([&] { return volumes.update(strain, parent, stress, tangent, bonds_break, signals()); });
   return py::make_tuple(token, stresses, with_tangent ? py::object(tangents) : py::none());
 }
 } // namespace
@@ -211,6 +208,12 @@ PYBIND11_MODULE(_core, module)
       },
       "Derivative of the stress by the strain [Pa]; None where it was not asked for.");
 
+  const auto asking = [](Trial (Rve::*const ask)(std::span<const double>, bool, const Check&) const) {
+    return [ask](const Rve& rve, const Array& strain, const bool tangent) {
+      const auto numbers = span_of(strain);
+      return waiting([&] { return (rve.*ask)(numbers, tangent, signals()); });
+    };
+  };
   py::class_<Rve>(module, "Rve")
     .def(py::init<const Specimen&, const Input&>(), WithoutInterpreter(), py::arg("specimen"), py::arg("input"))
     .def(py::init<const Rve&>(), py::arg("other"))
@@ -221,22 +224,8 @@ PYBIND11_MODULE(_core, module)
     .def_property_readonly("stress", [=](const Rve& rve) { return stress_of(rve); })
     .def_property_readonly("is_intact", &Rve::is_intact)
     .def_property_readonly("n_broken", &Rve::n_broken)
-    .def(
-      "trial",
-      [](const Rve& rve, const Array& strain, const bool tangent) {
-        const auto numbers = span_of(strain);
-        const py::gil_scoped_release released;
-        return rve.trial(numbers, tangent, signals());
-      },
-      py::arg("strain"), py::arg("tangent"))
-    .def(
-      "relax",
-      [](const Rve& rve, const Array& strain, const bool tangent) {
-        const auto numbers = span_of(strain);
-        const py::gil_scoped_release released;
-        return rve.relax(numbers, tangent, signals());
-      },
-      py::arg("strain"), py::arg("tangent"))
+    .def("trial", asking(&Rve::trial), py::arg("strain"), py::arg("tangent"))
+    .def("relax", asking(&Rve::relax), py::arg("strain"), py::arg("tangent"))
     .def("accept", &Rve::accept, WithoutInterpreter(), py::arg("trial"))
     .def(
       "first_break", [](const Rve& rve, const Array& direction) { return rve.first_break(span_of(direction)); },

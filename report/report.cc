@@ -102,20 +102,21 @@ std::vector<PagePicture> taken_out(std::vector<PageSection>& sections,
                                    const std::function<std::size_t(const Picture&)>& rank)
 {
   std::vector<PagePicture>* where = nullptr;
-  std::size_t which = 0, highest = 0;
+  std::vector<PagePicture>::iterator which;
+  std::size_t highest = 0;
   for (PageSection& section : sections)
     for (PageBlock& block : section.blocks)
-      for (std::size_t k = 0; k < block.pictures.size(); ++k)
-        if (const std::size_t its_rank = rank(block.pictures[k].picture); its_rank > highest)
+      for (auto one = block.pictures.begin(); one != block.pictures.end(); ++one)
+        if (const std::size_t its_rank = rank(one->picture); its_rank > highest)
           {
             where = &block.pictures;
-            which = k;
+            which = one;
             highest = its_rank;
           }
   if (where == nullptr)
     return {};
-  std::vector<PagePicture> taken{std::move((*where)[which])};
-  where->erase(where->begin() + std::ptrdiff_t(which));
+  std::vector<PagePicture> taken{std::move(*which)};
+  where->erase(which);
   return taken;
 }
 
@@ -217,13 +218,6 @@ Page page_of(const Findings& findings, PictureBook& book)
   return page;
 }
 
-/// Keeps pictures of every test by itself; for the page of a single folder.
-void keep_pictures_of_single_tests(const std::vector<Series>& all, PictureBook& book)
-{
-  for (const auto& series : all)
-    book.keep_as_files(single_test_pictures(series));
-}
-
 void write_tables(const Page& page, const std::filesystem::path& folder)
 {
   for (const auto& section : page.sections)
@@ -257,15 +251,15 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
   const Findings findings = findings_of(all, pictured, input);
   PictureBook book;
   Page page = page_of(findings, book);
-  if (input.one_folder)
-    keep_pictures_of_single_tests(all, book);
+  for (const auto& series : all)
+    if (input.one_folder)
+      book.keep_as_files(single_test_pictures(series));
   const std::string not_drawn = write_files(page, book, folder, watch);
 
   std::vector<std::string> missing;
   for (const auto& series : all)
-    missing.insert(missing.end(), series.problems.begin(), series.problems.end());
-  for (const std::string& remark : gap_remarks(all))
-    missing.push_back(remark);
+    append(missing, series.problems);
+  append(missing, gap_remarks(all));
   append(missing, findings.repeats);
   for (const auto& problem : {input.reference_problem, not_drawn})
     if (!problem.empty())

@@ -1,5 +1,7 @@
 #include "results/emission.h"
 
+#include "base/mapped.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -73,11 +75,7 @@ std::vector<EmissionEvent> events_up_to_peak(const TestRecord& record, const std
 
 std::vector<double> magnitudes_of(const std::vector<EmissionEvent>& events, const int dimension)
 {
-  std::vector<double> magnitudes;
-  magnitudes.reserve(events.size());
-  for (const EmissionEvent& event : events)
-    magnitudes.push_back(mechanism(event, dimension).magnitude);
-  return magnitudes;
+  return mapped<double>(events, [&](const EmissionEvent& event) { return mechanism(event, dimension).magnitude; });
 }
 
 HudsonPlace hudson_place(const EmissionEvent& event, const int dimension)

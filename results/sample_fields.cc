@@ -39,8 +39,7 @@ struct Place
 Place place_of(const pugi::xml_node& parent, const std::filesystem::path& index)
 {
   std::string text = parent.child_value("DataItem");
-  text.erase(std::remove_if(text.begin(), text.end(), [](const char c) { return c == ' ' || c == '\n' || c == '\t'; }),
-             text.end());
+  std::erase_if(text, [](const char c) { return c == ' ' || c == '\n' || c == '\t'; });
   const std::size_t colon = text.find(":/");
   if (colon == std::string::npos)
     throw objection_to(index, "a DataItem names no array of a file");

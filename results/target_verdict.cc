@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
+#include <iterator>
+#include <string_view>
 
 namespace feldspar
 {
@@ -17,10 +17,7 @@ namespace
 {
 constexpr std::size_t most_packings_told = 10000;
 
-constexpr std::array<std::pair<TargetVerdict, const char*>, 3> verdict_names{
-  {{TargetVerdict::reached, "reached"},
-   {TargetVerdict::missed, "missed"},
-   {TargetVerdict::not_decided, "not_decided"}}};
+constexpr std::string_view verdict_names[] = {"reached", "missed", "not_decided"}; // by their enumerators
 
 /// The scatter of one packing, a share of the target.
 std::optional<double> scatter_of(const TargetMean& mean)
@@ -48,10 +45,7 @@ std::string undecided_in_words(const TargetMean& mean, const double tolerance)
 std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, "; ")); }
 } // namespace
 
-std::string name(const TargetVerdict verdict)
-{
-  return std::ranges::find_if(verdict_names, [&](const auto& one) { return one.first == verdict; })->second;
-}
+std::string name(const TargetVerdict verdict) { return std::string(verdict_names[std::size_t(verdict)]); }
 
 std::string words(const TargetVerdict verdict)
 {
@@ -60,8 +54,8 @@ std::string words(const TargetVerdict verdict)
 
 std::optional<TargetVerdict> verdict_of_name(const std::string& name)
 {
-  const auto found = std::ranges::find_if(verdict_names, [&](const auto& one) { return one.second == name; });
-  return found == verdict_names.end() ? std::nullopt : std::optional(found->first);
+  const auto* const found = std::ranges::find(verdict_names, name);
+  return found == std::end(verdict_names) ? std::nullopt : std::optional(TargetVerdict(found - verdict_names));
 }
 
 std::optional<double> TargetMean::half_width() const

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "base/prefixes.h"
-#include "laboratory/bookkeeping.h"
-#include "laboratory/record.h"
+#include "laboratory/test_outcome.h"
+
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <numbers>
@@ -46,7 +47,10 @@ constexpr ShownIn plain(const int decimals) { return {"", 1.0, decimals}; }
 } // namespace display
 
 /// "title [unit]"; of a number without a unit the title.
-std::string with_unit(std::string_view title, std::string_view unit);
+inline std::string with_unit(const std::string_view title, const std::string_view unit)
+{
+  return unit.empty() ? std::string(title) : fmt::format("{} [{}]", title, unit);
+}
 
 /// The tests that give a quantity.
 struct TestsThatGive
@@ -172,7 +176,26 @@ enum class PropertySource
 };
 
 /// Returns whether tests of a kind give properties of this source.
-bool gives(PropertySource source, const TestKind& kind);
+constexpr bool gives(const PropertySource source, const TestKind& kind)
+{
+  switch (source)
+    {
+    case PropertySource::tension:
+      return kind.envelope_role == EnvelopeRole::tension;
+    case PropertySource::compression:
+      return kind.envelope_role == EnvelopeRole::compression && !kind.takes_confining_pressure;
+    case PropertySource::indirect_tension:
+      return kind.envelope_role == EnvelopeRole::indirect_tension;
+    case PropertySource::notch:
+      return kind.has_notch;
+    case PropertySource::tilt:
+      return kind.tilts;
+    case PropertySource::given:
+    case PropertySource::fit:
+      break;
+    }
+  return false;
+}
 
 /// Scale of the micro-parameters with which a property goes, all their ratios kept.
 enum class ResponseScale

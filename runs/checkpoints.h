@@ -3,9 +3,6 @@
 #include "base/input_error.h"
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -13,42 +10,6 @@
 
 namespace feldspar
 {
-/// Tells when a checkpoint is due: the first at once, each other when the time since the last is fifty times as long as
-/// that took to write, and at least some seconds. Checkpoints then cost at most 2 % of the time. Of a part that counts steps
-/// one is also due after so many.
-class CheckpointClock
-{
-public:
-  explicit CheckpointClock(const std::uint64_t n_steps_now = 0, const std::uint64_t n_steps_between = 0)
-    : interval(n_steps_between)
-    , next_step(n_steps_now + n_steps_between)
-  {
-  }
-
-  bool is_due(const std::uint64_t n_steps) const
-  {
-    return Clock::now() >= next || (interval > 0 && n_steps >= next_step);
-  }
-
-  /// Calls write(), which writes one.
-  template <typename Write>
-  void time(const Write& write, const std::uint64_t n_steps)
-  {
-    constexpr std::chrono::seconds least(5);
-    const auto begin = Clock::now();
-    write();
-    const auto end = Clock::now();
-    next = end + std::max<Clock::duration>(least, 50 * (end - begin));
-    next_step = n_steps + interval;
-  }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point next = Clock::time_point::min();
-  std::uint64_t interval;
-  std::uint64_t next_step;
-};
-
 /// The part as the first of these checkpoints that can be used has it, newest first, else as `begin` makes it. `read` puts
 /// it into the state of a file. `tell` hears, in a sentence, of one that cannot be used.
 template <typename Begin, typename Read, typename Tell>

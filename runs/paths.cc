@@ -1,6 +1,7 @@
 #include "runs/paths.h"
 
 #include "base/parallel.h"
+#include "runs/checkpoints.h"
 #include "runs/jobs.h"
 #include "runs/part.h"
 

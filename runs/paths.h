@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/network/stiffness_bounds.h"
+#include "coupling/network/network.h"
 #include "coupling/rve/explicit_run.h"
 #include "coupling/rve/path_run.h"
 #include "dem/minerals/mixture_bounds.h"

@@ -1,10 +1,9 @@
-#include "runs/point_rves.h"
-
 #include "base/byte_archive.h"
 #include "base/contains.h"
 #include "base/ranks/ranks.h"
 #include "coupling/rve/state_archive.h"
 #include "runs/rve_view.h"
+#include "runs/samples.h"
 
 #include <algorithm>
 #include <map>
@@ -27,12 +26,9 @@ std::vector<ChosenPoint> chosen(const TestRecord& record, const std::uint64_t n_
   std::map<std::uint64_t, std::size_t> n_broken;
   for (const Crack& crack : record.cracks)
     ++n_broken[crack.joint];
-  std::vector<std::pair<std::size_t, std::uint64_t>> damaged; // least first
-  for (const auto& [number, n] : n_broken)
-    damaged.emplace_back(n, number);
-  std::ranges::sort(damaged, [](const auto& one, const auto& other) {
-    return one.first != other.first ? one.first < other.first : one.second > other.second;
-  });
+  // The least damaged first, of those that are equal the one of the highest number.
+  std::vector<std::pair<std::uint64_t, std::size_t>> damaged(n_broken.rbegin(), n_broken.rend());
+  std::ranges::stable_sort(damaged, {}, &std::pair<std::uint64_t, std::size_t>::second);
 
   std::vector<ChosenPoint> choices;
   const auto add = [&](const std::string& which, const std::uint64_t number) {
@@ -41,8 +37,8 @@ std::vector<ChosenPoint> chosen(const TestRecord& record, const std::uint64_t n_
   };
   if (!damaged.empty())
     {
-      add("most damaged", damaged.back().second);
-      add("median of the damaged", damaged[damaged.size() / 2].second);
+      add("most damaged", damaged.back().first);
+      add("median of the damaged", damaged[damaged.size() / 2].first);
     }
   std::vector<std::uint64_t> intact;
   for (std::uint64_t number = 0; number < n_points; ++number)
@@ -51,7 +47,7 @@ std::vector<ChosenPoint> chosen(const TestRecord& record, const std::uint64_t n_
   if (!intact.empty())
     add("intact", intact[intact.size() / 2]);
   else
-    add("least damaged", damaged.front().second);
+    add("least damaged", damaged.front().first);
   return choices;
 }
 

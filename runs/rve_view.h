@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/sample/sample_rve.h"
+#include "coupling/sample/realisation.h"
 #include "dem/specimen/specimen.h"
 #include "laboratory/appearance.h"
 

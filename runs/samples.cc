@@ -3,8 +3,8 @@
 #include "base/input_error.h"
 #include "base/ranks/ranks.h"
 #include "coupling/sample/checkpoints.h"
+#include "runs/checkpoints.h"
 #include "runs/part.h"
-#include "runs/point_rves.h"
 
 #include <fmt/format.h>
 

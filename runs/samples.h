@@ -73,4 +73,10 @@ SampleTest open(const PlannedSample& planned, const std::filesystem::path& folde
 /// the end; tests that had not begun are then not in the results.
 std::vector<FinishedTest> run_samples(const std::vector<PlannedSample>& planned, const std::filesystem::path& folder,
                                       RunObserver& observer);
+
+/// The RVEs of a test that the report shows, as they are at its last step: the point with most broken segments (of
+/// equals that of the lowest number), the median of the damaged ones, and of those where nothing broke the middle one by
+/// number, or the least damaged. None of a sample without grains.
+/// `record` is what the test leaves. Collective; the first rank gets them.
+std::vector<PointRve> point_rves(const PlannedSample& planned, const SampleTest& test, const TestRecord& record);
 } // namespace feldspar

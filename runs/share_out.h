@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/ranks/ranks.h"
+#include "runs/observer.h"
 
 #include <cstddef>
 #include <functional>
@@ -22,5 +23,20 @@ std::vector<Part> share_of_this_process(const std::vector<Part>& all)
 
 /// Work of each process by itself, of all of them; an interruption of one is one of all: Interrupted is thrown on all.
 /// Else as ranks::together().
-void together_or_interrupted(const std::function<void()>& work);
+inline void together_or_interrupted(const std::function<void()>& work)
+{
+  bool was_interrupted = false;
+  ranks::together([&] {
+    try
+      {
+        work();
+      }
+    catch (const Interrupted&)
+      {
+        was_interrupted = true;
+      }
+  });
+  if (ranks::any(was_interrupted))
+    throw Interrupted();
+}
 } // namespace feldspar

@@ -5,6 +5,8 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/numerics/vector_tools_integrate_difference.h>
 
+#include <gtest/gtest.h>
+
 #include <functional>
 #include <memory>
 #include <vector>
@@ -21,6 +23,16 @@ inline SampleMesh<2> quarter_ring(const MPI_Comm communicator, const double inne
   dealii::GridGenerator::quarter_hyper_shell(*mesh.triangulation, dealii::Point<2>(), inner, outer, 0, true);
   mesh.triangulation->refine_global(n_refinements);
   return mesh;
+}
+
+/// Loads a solid and accepts what was found.
+template <int dim, int material_dim>
+NewtonReport solve_and_accept(Solid<dim, material_dim>& solid, const Load<dim>& load)
+{
+  NewtonReport report = solid.solve(load);
+  EXPECT_TRUE(report.converged) << report.failure;
+  solid.accept();
+  return report;
 }
 
 template <int dim>

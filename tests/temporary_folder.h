@@ -25,6 +25,8 @@ public:
   ~TemporaryFolder() { std::filesystem::remove_all(folder); }
 
   const std::filesystem::path& path() const { return folder; }
+  operator const std::filesystem::path&() const { return folder; }
+  std::filesystem::path operator/(const std::filesystem::path& name) const { return folder / name; }
 
   std::filesystem::path write(const std::string_view name, const std::string_view text) const
   {

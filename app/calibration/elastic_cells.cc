@@ -4,7 +4,6 @@
 #include "app/calibration/kept_values.h"
 #include "app/programme/run_board.h"
 #include "app/run/interrupt.h"
-#include "app/run/run_record.h"
 #include "coupling/network/network.h"
 #include "coupling/rve/homogenisation.h"
 #include "dem/genesis/genesis.h"
@@ -15,8 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace feldspar::calibration
@@ -63,9 +60,6 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
   constexpr std::size_t n_ratios = 17;
   constexpr std::size_t n_gaps = 9;
   const Input cell = cell_of(input);
-  const std::filesystem::path kept = folder / "calibration";
-  std::filesystem::create_directories(kept);
-
   const std::vector<double> ratios =
     stiffness_ratio ? spread(*stiffness_ratio, n_ratios) : std::vector{input.flat_joint.stiffness_ratio};
   const std::vector<double> gaps = gap ? spread(*gap, n_gaps) : std::vector{gap_of_specimens};
@@ -75,8 +69,7 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
   {
     std::size_t gap, ratio;
     Input rock;
-    std::filesystem::path file;
-    std::string identity;
+    KeptValues kept;
   };
   std::vector<Order> orders; // that no earlier run has carried out
   for (std::size_t g = 0; g < gaps.size(); ++g)
@@ -85,13 +78,12 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
         MicroParameters parameters = micro_parameters(cell);
         parameters.stiffness_ratio = ratios[r];
         parameters.gap = gaps[g];
-        const std::string name = fmt::format("elastic_gap_{}_ratio_{}", g, r);
-        Order order{g, r, with_parameters(cell, parameters), kept / (name + ".json"), ""};
-        order.identity = run_identity(order.rock, name);
-        if (const auto values = read_values(order.file, order.identity, 2); values && (*values)[0] && (*values)[1])
+        const Input rock = with_parameters(cell, parameters);
+        const KeptValues kept(folder, fmt::format("elastic_gap_{}_ratio_{}", g, r), rock);
+        if (const auto values = kept.read(2); values && (*values)[0] && (*values)[1])
           constants[g][r] = {*(*values)[0], *(*values)[1]};
         else
-          orders.push_back(std::move(order));
+          orders.push_back({g, r, rock, kept});
       }
   std::vector<Specimen<dim>> packings(orders.empty() ? 0 : n_packings);
   for_each_job(packings.size(), [&](const std::size_t k) { packings[k] = packing_of<dim>(cell, k + 1); });
@@ -113,7 +105,7 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
         mean.poissons_ratio += of_cell.poissons_ratio / double(n_packings);
       }
     constants[order.gap][order.ratio] = mean;
-    write_values(order.file, order.identity, {mean.modulus_ratio, mean.poissons_ratio});
+    order.kept.write({mean.modulus_ratio, mean.poissons_ratio});
     board.ended(job);
   });
   return {ratios, gaps, constants};

@@ -44,35 +44,7 @@ double first_bond_strength(const Problem& problem, const double otherwise)
         return target.value / share;
   return otherwise;
 }
-} // namespace
 
-MicroParameters first_guess(const Problem& problem, const MicroParameters& fixed)
-{
-  MicroParameters guess = fixed;
-  if (const auto modulus = target_of(problem, ResponseScale::modulus))
-    guess.modulus = *modulus / 0.8;
-  if (problem.has_strength)
-    guess.bond_tensile_strength = first_bond_strength(problem, fixed.bond_tensile_strength);
-  return guess;
-}
-
-void check_poissons_ratio(const Problem& problem, const CalibrationParameters& wanted, const ElasticTable& elastic)
-{
-  const auto target = target_of(problem, ResponseScale::none);
-  if (!target || wanted.poissons_ratio != ElasticFigure::initial)
-    return; // cracks raise the secant: the design will tell
-  const auto& [least, largest] = elastic.range();
-  // Specimens between walls differ from cells by some hundredths.
-  constexpr double of_walls = 0.03;
-  if (*target < least.poissons_ratio - of_walls || *target > largest.poissons_ratio + of_walls)
-    throw InputError("an initial Poisson's ratio of {:.3f} cannot be reached: the intact rock has {:.3f} to "
-                     "{:.3f} between the bounds of section Calibration; widen those of Stiffness ratio or "
-                     "Installation gap ratio, or correct the reference file",
-                     *target, least.poissons_ratio, largest.poissons_ratio);
-}
-
-namespace
-{
 void check(const Input& input)
 {
   const SpecimenParameters& specimen = input.specimen;
@@ -113,6 +85,31 @@ void check_problem(const Problem& problem, const CalibrationParameters& wanted)
                      least, problem.unknowns.size());
 }
 } // namespace
+
+MicroParameters first_guess(const Problem& problem, const MicroParameters& fixed)
+{
+  MicroParameters guess = fixed;
+  if (const auto modulus = target_of(problem, ResponseScale::modulus))
+    guess.modulus = *modulus / 0.8;
+  if (problem.has_strength)
+    guess.bond_tensile_strength = first_bond_strength(problem, fixed.bond_tensile_strength);
+  return guess;
+}
+
+void check_poissons_ratio(const Problem& problem, const CalibrationParameters& wanted, const ElasticTable& elastic)
+{
+  const auto target = target_of(problem, ResponseScale::none);
+  if (!target || wanted.poissons_ratio != ElasticFigure::initial)
+    return; // cracks raise the secant: the design will tell
+  const auto& [least, largest] = elastic.range();
+  // Specimens between walls differ from cells by some hundredths.
+  constexpr double of_walls = 0.03;
+  if (*target < least.poissons_ratio - of_walls || *target > largest.poissons_ratio + of_walls)
+    throw InputError("an initial Poisson's ratio of {:.3f} cannot be reached: the intact rock has {:.3f} to "
+                     "{:.3f} between the bounds of section Calibration; widen those of Stiffness ratio or "
+                     "Installation gap ratio, or correct the reference file",
+                     *target, least.poissons_ratio, largest.poissons_ratio);
+}
 
 void check_input(const Input& input, const std::filesystem::path& input_file)
 {

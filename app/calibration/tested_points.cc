@@ -3,10 +3,10 @@
 #include "app/calibration/calibrated_input.h"
 #include "app/calibration/kept_values.h"
 #include "app/input/joint_sections.h"
+#include "app/programme/checks.h"
 #include "app/programme/lab_run.h"
 #include "app/programme/run_board.h"
 #include "app/run/interrupt.h"
-#include "app/run/run_record.h"
 #include "app/screen/expected_length.h"
 #include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
@@ -31,6 +31,13 @@ std::vector<BoardPart> for_board(const std::vector<TestCase>& programme, const I
     for (const TestCase& test : programme)
       parts.push_back({"", expected_last_strain(test, input) / (*protocol_of(test.kind).strain_rate)(input.tests)});
   return parts;
+}
+
+std::string name_of(const TestedPoint& point)
+{
+  std::string words = point.stage;
+  std::ranges::replace(words, ' ', '_');
+  return fmt::format("{}_{}_seed_{}", words, point.number, point.seed);
 }
 
 /// Shows a test by the strain that it has come to.
@@ -60,74 +67,55 @@ private:
 };
 } // namespace
 
-std::string PointOrder::name() const
-{
-  std::string words = stage;
-  std::ranges::replace(words, ' ', '_');
-  return fmt::format("{}_{}_seed_{}", words, number, seed);
-}
-
 template <int dim>
 std::string objection_to_packing(const Input& rock, const std::uint64_t seed, const std::filesystem::path& folder)
 {
-  const std::string name = fmt::format("packing_{}", seed);
-  const auto file = folder / "calibration" / (name + ".json");
-  const std::string identity = run_identity(rock, name);
-  if (read_values(file, identity, 0))
+  const KeptValues kept(folder, fmt::format("packing_{}", seed), rock);
+  if (kept.read(0))
     return "";
-  try
-    {
-      const auto specimen = make_rock<dim>(rock_of(rock), seed, end_if_interrupted);
-      for (const TestCase& test : test_cases(rock.test_list, rock.confinements))
-        (*protocol_of(test.kind).template set_up<dim>())(specimen, test.confining_pressure, rock.tests, rock.dynamics);
-    }
-  catch (const InputError& error)
-    {
-      return error.what();
-    }
-  std::filesystem::create_directories(file.parent_path());
-  write_values(file, identity, {});
-  return "";
+  const std::string objection = refusal_of([&] {
+    const auto specimen = make_rock<dim>(rock_of(rock), seed, end_if_interrupted);
+    for (const TestCase& test : test_cases(rock.test_list, rock.confinements))
+      (*protocol_of(test.kind).template set_up<dim>())(specimen, test.confining_pressure, rock.tests, rock.dynamics);
+  });
+  if (objection.empty())
+    kept.write({});
+  return objection;
 }
 
 template <int dim>
 std::vector<TestedPoint> test_points(const Input& input, const std::vector<Response>& responses,
-                                     const std::vector<PointOrder>& orders, const std::filesystem::path& folder,
+                                     std::vector<TestedPoint> points, const std::filesystem::path& folder,
                                      Progress& progress)
 {
-  const std::filesystem::path kept = folder / "calibration";
   const std::filesystem::path checkpoints = folder / "checkpoints";
-  std::filesystem::create_directories(kept);
   std::filesystem::create_directories(checkpoints);
   const std::vector<TestCase> programme = test_cases(input.test_list, input.confinements);
   const auto part = [&](const std::size_t k, const std::size_t j) { return k * programme.size() + j; };
-  std::vector<TestedPoint> tested(orders.size());
-  RunBoard board(progress, "", for_board(programme, input, orders.size()));
-  for_each_job(orders.size(), [&](const std::size_t k) {
-    const PointOrder& order = orders[k];
-    tested[k] = {order.stage, order.number, order.seed, order.point, order.parameters, {}};
-    const Input rock = with_parameters(input, order.parameters);
-    const std::string identity = run_identity(rock, order.name());
-    const auto file = kept / (order.name() + ".json");
-    if (auto values = read_values(file, identity, responses.size()))
+  RunBoard board(progress, "", for_board(programme, input, points.size()));
+  for_each_job(points.size(), [&](const std::size_t k) {
+    TestedPoint& point = points[k];
+    const Input rock = with_parameters(input, point.parameters);
+    const KeptValues kept(folder, name_of(point), rock);
+    if (auto values = kept.read(responses.size()))
       {
-        tested[k].values = std::move(*values);
+        point.values = std::move(*values);
         for (std::size_t j = 0; j < programme.size(); ++j)
           board.taken_up(part(k, j));
         return;
       }
     end_if_interrupted();
     std::vector<FinishedTest> finished_tests;
-    const auto name_of = [&](const TestCase& test) { return fmt::format("{}_{}", order.name(), name(test)); };
+    const auto name_of_test = [&](const TestCase& test) { return fmt::format("{}_{}", name_of(point), name(test)); };
     try
       {
-        const auto specimen = make_rock<dim>(rock_of(rock), order.seed, end_if_interrupted);
+        const auto specimen = make_rock<dim>(rock_of(rock), point.seed, end_if_interrupted);
         for (std::size_t j = 0; j < programme.size(); ++j)
           {
             const TestCase& test = programme[j];
             try
               {
-                const std::string full_name = name_of(test);
+                const std::string full_name = name_of_test(test);
                 TestObserver observer(board, test, expected_last_strain(test, rock));
                 const LaboratoryOrder wanted = laboratory_order(test, rock, full_name);
                 TestOutcome outcome = run_test<dim>(
@@ -148,13 +136,13 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
         for (std::size_t j = 0; j < programme.size(); ++j)
           board.ended(part(k, j)); // no specimen can be made of them
       }
-    tested[k].values = values_of(responses, finished_tests);
-    write_values(file, identity, tested[k].values);
+    point.values = values_of(responses, finished_tests);
+    kept.write(point.values);
     for (const TestCase& test : programme)
       for (const char* const ending : {".h5", ".previous.h5"})
-        std::filesystem::remove(checkpoints / (name_of(test) + ending));
+        std::filesystem::remove(checkpoints / (name_of_test(test) + ending));
   });
-  return tested;
+  return points;
 }
 
 template decltype(objection_to_packing<2>) objection_to_packing<2>;

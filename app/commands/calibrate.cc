@@ -171,12 +171,12 @@ private:
   std::string design_stage(ResponseModel& model)
   {
     const auto seeds = packings_of_design(with_parameters(input, model.parameters(start)));
-    std::vector<PointOrder> orders;
+    std::vector<TestedPoint> orders;
     const auto points = sobol_points(wanted.n_points, problem.unknowns.size(), input.seeds.front());
     for (std::size_t i = 0; i < points.size(); ++i)
       for (const std::uint64_t seed : seeds)
         orders.push_back(
-          {"design", i, seed, points[i], model.parameters({points[i], start.log_modulus, start.log_strength})});
+          {"design", i, seed, points[i], model.parameters({points[i], start.log_modulus, start.log_strength}), {}});
     append(tested, test("design", orders));
     model.learn(tested);
     for (const Target& target : problem.targets)
@@ -203,9 +203,9 @@ private:
       {
         ++n_steps;
         const Place place = fit.place;
-        std::vector<PointOrder> orders;
+        std::vector<TestedPoint> orders;
         for (const std::uint64_t seed : seeds)
-          orders.push_back({fmt::format("step {}", n_steps), 0, seed, place.point, model.parameters(place)});
+          orders.push_back({fmt::format("step {}", n_steps), 0, seed, place.point, model.parameters(place), {}});
         auto of_step = test(fmt::format("step {}", n_steps), orders);
         const std::vector<TargetOutcome> outcomes = outcomes_of(of_step, problem.targets, model, place);
         append(corrections, of_step);
@@ -243,7 +243,7 @@ private:
     MicroParameters stronger = as_is;
     stronger.bond_tensile_strength *= factor;
     const auto both =
-      test("strain scale", {{"scale", 0, seed, place.point, as_is}, {"scale", 1, seed, place.point, stronger}});
+      test("strain scale", {{"scale", 0, seed, place.point, as_is, {}}, {"scale", 1, seed, place.point, stronger, {}}});
     for (std::size_t j = 0; j < problem.responses.size(); ++j)
       if (const Response& response = problem.responses[j]; response.scale == ResponseScale::strength &&
                                                            !response.name.starts_with("strength_at_") &&
@@ -392,11 +392,11 @@ private:
     return points;
   }
 
-  std::vector<TestedPoint> test(const std::string& title, const std::vector<PointOrder>& orders)
+  std::vector<TestedPoint> test(const std::string& title, const std::vector<TestedPoint>& orders)
   {
     progress.start(title);
     auto points = test_points<dim>(input, problem.responses, orders, run.folder, progress);
-    progress.finish(fmt::format("{} specimen(s)", orders.size()));
+    progress.finish(fmt::format("{} specimen(s)", points.size()));
     return points;
   }
 

@@ -1,7 +1,7 @@
 #include "app/calibration/problem.h"
 #include "app/commands/commands.h"
 #include "app/input/joint_sections.h"
-#include "app/processes/finite_elements.h"
+#include "app/processes/mpi_session.h"
 #include "app/programme/checks.h"
 #include "app/programme/genesis_effort.h"
 #include "app/programme/laboratory_effort.h"
@@ -43,7 +43,7 @@ Remarks check_lab(const Input& input, const std::filesystem::path& file)
   check_laboratory_input(input, file);
   check_memory_of_tests(RunPlan(input));
   with_specimen_of_file(
-    input, [&](const auto& specimen) { with_name_of(file, [&] { check_specimen_of_file(input, specimen); }); });
+    input, [&](const auto& specimen) { with_name_of(file, [&] { check_specimen_of_file(input, specimen.shape); }); });
   return entries_without_effect(variants(input));
 }
 
@@ -59,7 +59,7 @@ Remarks check_multiscale(const Input& input, const std::filesystem::path& file)
   if (input.sample.has_grains())
     with_specimen_of_file(input, [&]<int dim>(const Specimen<dim>& specimen) {
       with_name_of(file, [&] {
-        check_cell(specimen, "the RVE at a point");
+        check_cell(specimen.shape, "the RVE at a point");
         check_intact(input, Network<dim>(specimen));
       });
     });
@@ -72,7 +72,7 @@ Remarks check_rve(const Input& input, const std::filesystem::path& file)
   const RunPlan plan(input);
   check_memory(plan, plan.orders);
   with_specimen_of_file(input, [&]<int dim>(const Specimen<dim>& specimen) {
-    with_name_of(file, [&] { check_cell(specimen, "a representative volume"); });
+    with_name_of(file, [&] { check_cell(specimen.shape, "a representative volume"); });
     if (read_rve_state(input.specimen.specimen_file, Network<dim>(specimen)))
       check_rve_out_of_sample(input);
   });

@@ -16,7 +16,6 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -177,11 +176,10 @@ std::string contact_response(const Input& input, const std::filesystem::path& in
 {
   if (input.contact.path_file.empty())
     throw InputError("{}: Contact path/File: is missing; name a CSV file of displacements", input_file.string());
-  for (const auto& [section, entry] :
-       {std::pair("Clumps", "Diameter"), std::pair("Mineral grains", "Mean size"), std::pair("Minerals", "Table")})
-    if (const std::string value = find_parameter(section, entry)->write(input); value != none)
-      throw InputError("{}: {}/{} = {}: one contact of two grains has no use for it; leave it out", input_file.string(),
-                       section, entry, value);
+  for (const char* const name : {"Clumps/Diameter", "Mineral grains/Mean size", "Minerals/Table"})
+    if (const std::string value = find_parameter(name)->write(input); value != none)
+      throw InputError("{}: {} = {}: one contact of two grains has no use for it; leave it out", input_file.string(),
+                       name, value);
   return input.specimen.dimension == 2 ? response<2>(input) : response<3>(input);
 }
 

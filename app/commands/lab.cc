@@ -101,19 +101,12 @@ void share_out_tests(const Run& run, Progress& progress)
 template <int dim>
 void check_that_one_fills_its_box(const std::vector<Specimen<dim>>& specimens)
 {
-  std::optional<InputError> refusal;
+  std::string refusal;
   for (const Specimen<dim>& specimen : specimens)
-    try
-      {
-        check_fills_its_box(specimen);
-        return;
-      }
-    catch (const InputError& error)
-      {
-        refusal = error;
-      }
-  if (refusal)
-    throw InputError(*refusal);
+    if (refusal = refusal_of([&] { check_fills_its_box(specimen); }); refusal.empty())
+      return;
+  if (!refusal.empty())
+    throw InputError(refusal);
 }
 
 /// Specimens, tests and report of a run in its folder, from wherever it stands, by this process.
@@ -130,7 +123,7 @@ RunEnd test_alone(const Run& run, Progress& progress)
     check_memory_of_tests(plan);
   auto specimens = provide_specimens<dim>(plan, folder, progress);
   if (!input.specimen.specimen_file.empty())
-    with_name_of(input_file, [&] { check_specimen_of_file(input, specimens.front()); });
+    with_name_of(input_file, [&] { check_specimen_of_file(input, specimens.front().shape); });
 
   // Break it.
   check_that_one_fills_its_box(specimens);

@@ -1,6 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
-#include "app/processes/finite_elements.h"
+#include "app/processes/mpi_session.h"
 #include "app/programme/checks.h"
 #include "app/programme/multiscale_run.h"
 #include "app/programme/reference_body.h"

@@ -20,11 +20,9 @@ std::string or_dash(const std::string& text) { return text.empty() ? "-" : text;
 
 void print_entry(const std::string& heading, const Parameter& parameter)
 {
-  const std::string text =
-    fmt::format("{}\n    unit {}; default {}; range {}\n    {}\n", heading, or_dash(parameter.unit),
-                parameter.default_text(), parameter.range, parameter.described());
-  const auto columns = columns_of_terminal();
-  print_result("{}", columns ? wrapped(text, *columns) : text);
+  print_result(
+    "{}", for_terminal(fmt::format("{}\n    unit {}; default {}; range {}\n    {}\n", heading, or_dash(parameter.unit),
+                                   parameter.default_text(), parameter.range, parameter.described())));
 }
 
 using Entries = std::vector<const Parameter*>;

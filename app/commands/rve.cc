@@ -20,8 +20,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include <algorithm>
-
 /// `feldspar rve`: representative volumes along a path of strain or stress, one for each seed.
 namespace feldspar
 {
@@ -69,10 +67,8 @@ std::vector<PathOrder<dim>> plan_paths(const Input& input, const RunPlan& plan)
     return order;
   };
   std::vector<PathOrder<dim>> paths;
-  for (std::size_t v = 0; v < plan.variants.size(); ++v)
-    for (std::size_t s = 0; s < plan.orders.size(); ++s)
-      if (std::ranges::count(plan.orders[s].variants, v) > 0)
-        paths.push_back(path(plan.variants[v], s));
+  for (const auto& [v, s] : plan.parts())
+    paths.push_back(path(plan.variants[v], s));
   return paths;
 }
 
@@ -133,7 +129,7 @@ RunEnd strain_alone(const Run& run, Progress& progress)
   const auto specimens = provide_specimens<dim>(plan, run.folder, progress);
   with_name_of(run.input_file, [&] {
     for (const auto& specimen : specimens)
-      check_cell(specimen, "a representative volume");
+      check_cell(specimen.shape, "a representative volume");
   });
 
   // Strain it.

@@ -62,10 +62,8 @@ std::string describe_turn(const Tensor<dim>& turn)
 template <int dim>
 std::string describe_position(const Vector<dim>& position)
 {
-  std::vector<std::string> components;
-  for (const double component : position)
-    components.push_back(fmt::format("{:.2f}", component * 1e3));
-  return fmt::format("({})", fmt::join(components, ", "));
+  const Vector<dim> in_mm = position * 1e3;
+  return fmt::format("({:.2f})", fmt::join(in_mm.begin(), in_mm.end(), ", "));
 }
 
 /// Writes the RVE at a place of one test; what was written, in words.

@@ -2,6 +2,7 @@
 #include "app/input/parameter_table.h"
 #include "base/contains.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
 #include "base/text.h"
@@ -9,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <array>
 #include <map>
 
 /// The entries of bodies that have a form of their own: the sieve curve of the grains, the names of a mesh.
@@ -50,11 +51,10 @@ std::vector<SievePoint> read_sieve_curve(const std::string_view text)
 
 std::string write_sieve_curve(const std::vector<SievePoint>& curve)
 {
-  std::string text;
-  for (const auto& [size, passing] : curve)
-    text += fmt::format("{}{} {} %", text.empty() ? "" : "; ", format_quantity(size, "mm", length),
-                        format_number(100.0 * passing));
-  return text.empty() ? std::string(none) : text;
+  const auto points = mapped<std::string>(curve, [](const SievePoint& point) {
+    return fmt::format("{} {} %", format_quantity(point.size, "mm", length), format_number(100.0 * point.passing));
+  });
+  return or_none(fmt::format("{}", fmt::join(points, "; ")));
 }
 
 /// BOUNDARY = GROUP, GROUP; BOUNDARY = GROUP
@@ -63,7 +63,7 @@ std::map<std::string, std::vector<std::string>> read_mesh_names(const std::strin
   std::map<std::string, std::vector<std::string>> names;
   if (text == none)
     return names;
-  static const std::vector<std::string_view> known{"left", "right", "bottom", "top", "axis", "side"};
+  constexpr std::array<std::string_view, 6> known{"left", "right", "bottom", "top", "axis", "side"};
   for (const std::string_view piece : split_at(";", text))
     {
       const std::size_t equals = std::min(piece.find('='), piece.size());
@@ -81,40 +81,38 @@ std::map<std::string, std::vector<std::string>> read_mesh_names(const std::strin
 
 std::string write_mesh_names(const std::map<std::string, std::vector<std::string>>& names)
 {
-  std::string text;
-  for (const auto& [name, groups] : names)
-    text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", name, fmt::join(groups, ", "));
-  return text.empty() ? std::string(none) : text;
+  const auto boundaries = mapped<std::string>(
+    names, [](const auto& one) { return fmt::format("{} = {}", one.first, fmt::join(one.second, ", ")); });
+  return or_none(fmt::format("{}", fmt::join(boundaries, "; ")));
 }
 } // namespace
 
-Entry<SpecimenParameters> sieve_curve_entry()
+std::vector<Entry<SpecimenParameters>> sieve_curve_entries()
 {
-  using P = SpecimenParameters;
   const auto excluded = [](const std::string_view other) {
     return Demand{"",
                   other,
                   {},
                   "gives the sizes of all grains; leave out Minimum radius, Radius ratio and Size distribution"};
   };
-  return entry::text(
-    "Sieve curve", &P::sieve_curve, "", "none, or SIZE PASSING %, separated by semicolons", read_sieve_curve,
-    write_sieve_curve,
+  return {entry::text(
+    "Sieve curve", &SpecimenParameters::sieve_curve, "", "none, or SIZE PASSING %, separated by semicolons",
+    read_sieve_curve, write_sieve_curve,
     "diameters of grains and the share of the mass in smaller ones (in the plane: of the area), from 0 to 100 %, "
     "instead of the radii: `0.8 mm 0 %; 1.2 mm 40 %; 2 mm 100 %`; between two points the mass is spread evenly "
     "over the logarithm of the size",
     {.varies = true,
      .of_specimen = true,
      .demands = {excluded("Specimen/Minimum radius"), excluded("Specimen/Radius ratio"),
-                 excluded("Specimen/Size distribution")}});
+                 excluded("Specimen/Size distribution")}})};
 }
 
-Entry<SampleParameters> mesh_names_entry()
+std::vector<Entry<SampleParameters>> mesh_names_entries()
 {
-  return entry::text(
+  return {entry::text(
     "Mesh names", &SampleParameters::mesh_names, "", "none, or BOUNDARY = GROUP, several separated by semicolons",
     read_mesh_names, write_mesh_names,
     "physical groups of the mesh file that are the boundaries of the sample, where they have other names there: "
-    "`left = west; bottom = base_1, base_2`; a group without a name has its number");
+    "`left = west; bottom = base_1, base_2`; a group without a name has its number")};
 }
 } // namespace feldspar

@@ -86,10 +86,7 @@ Text text_form(const Entry<Input>::File& file)
 {
   return {"", std::string(none_or_a_file),
           [file](Input& input, const std::string_view text) { file.place.at(input) = readable_file(input, text); },
-          [file](const Input& input) {
-            const std::string& path = file.place.get(input);
-            return path.empty() ? std::string(none) : path;
-          }};
+          [file](const Input& input) { return or_none(file.place.get(input)); }};
 }
 
 Text text_form(const Entry<Input>::Choice& choice)
@@ -116,20 +113,21 @@ double read_number(const std::string_view text, const Measure measure, const std
 {
   const std::string demand =
     fmt::format("must {} {}{}", range.upper == ranges::infinity ? "be" : "lie in", text_of(range, unit), or_else);
+  double value = 0.0;
+  Range in_si = range;
   if (measure == Measure::number)
     {
       if (text.find(' ') != std::string_view::npos)
         throw InputError("is a number without unit; it {}", demand);
-      const double value = with_usual_exponent(parse_number(text));
-      if (!range.contains(value))
-        throw InputError(demand);
-      return value;
+      value = with_usual_exponent(parse_number(text));
     }
-  const Dimension& dimension = dimension_of(measure);
-  const double value = parse_quantity(text, dimension);
-  const Range si_range{range.left, to_si(range.lower, unit, dimension), to_si(range.upper, unit, dimension),
-                       range.right};
-  if (!si_range.contains(value))
+  else
+    {
+      const Dimension& dimension = dimension_of(measure);
+      value = parse_quantity(text, dimension);
+      in_si = {range.left, to_si(range.lower, unit, dimension), to_si(range.upper, unit, dimension), range.right};
+    }
+  if (!in_si.contains(value))
     throw InputError(demand);
   return value;
 }

@@ -1,9 +1,10 @@
-#include "app/input/flaw_entries.h"
-
 #include "app/input/entry_parameter.h"
+#include "app/input/input_entries.h"
 #include "app/input/maps/traces.h"
 #include "app/input/parameter_table.h"
+#include "base/contains.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
 
@@ -12,12 +13,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace feldspar
@@ -38,10 +38,10 @@ std::vector<std::string_view> words_of(std::string_view text)
   return words;
 }
 
-std::string joined(const std::vector<std::string_view>& words, const std::size_t begin, const std::size_t end)
-{
-  return fmt::format("{}", fmt::join(words.begin() + std::ptrdiff_t(begin), words.begin() + std::ptrdiff_t(end), " "));
-}
+std::string joined(const std::span<const std::string_view> words) { return fmt::format("{}", fmt::join(words, " ")); }
+
+/// A text that is kept as it was written, but for its white space; empty of none.
+std::string as_written(const std::string_view text) { return text == none ? "" : joined(words_of(text)); }
 
 /// The quantities of a shape by their words, e.g. centre and radius.
 class Quantities
@@ -54,35 +54,25 @@ class Quantities
     const auto found = texts.find(word);
     if (found == texts.end())
       throw InputError("{} is missing", word);
-    try
-      {
-        return from_text(std::string_view(found->second));
-      }
-    catch (const InputError& error)
-      {
-        throw InputError("{} {}: {}", word, excerpt(found->second), error.what());
-      }
+    return rephrased(
+      [&] { return from_text(std::string_view(found->second)); },
+      [&](const std::string& what) { return InputError("{} {}: {}", word, excerpt(found->second), what); });
   }
 
 public:
-  Quantities(const std::vector<std::string_view>& words, std::size_t first,
-             const std::vector<std::string_view>& known_words)
+  Quantities(std::span<const std::string_view> words, const std::vector<std::string_view>& known_words)
   {
-    const auto is_known = [&](const std::string_view word) {
-      return std::find(known_words.begin(), known_words.end(), word) != known_words.end();
-    };
-    while (first < words.size())
+    while (!words.empty())
       {
-        const std::string_view word = words[first];
-        if (!is_known(word))
-          throw InputError(
-            fmt::format("{} is not one of its words; they are {}", in_quotes(word), fmt::join(known_words, ", ")));
-        std::size_t next = first + 1;
-        while (next < words.size() && !is_known(words[next]))
+        const std::string_view word = words.front();
+        if (!contains(known_words, word))
+          throw InputError("{} is not one of its words; they are {}", in_quotes(word), fmt::join(known_words, ", "));
+        std::size_t next = 1;
+        while (next < words.size() && !contains(known_words, words[next]))
           ++next;
-        if (!texts.emplace(word, joined(words, first + 1, next)).second)
+        if (!texts.emplace(word, joined(words.subspan(1, next - 1))).second)
           throw InputError("{} is given twice", word);
-        first = next;
+        words = words.subspan(next);
       }
   }
 
@@ -92,7 +82,7 @@ public:
   bool is_given_by(const std::vector<std::string_view>& words, const std::vector<std::string_view>& others) const
   {
     const auto is_given = [&](const std::string_view word) { return has(word); };
-    return std::all_of(words.begin(), words.end(), is_given) && std::none_of(others.begin(), others.end(), is_given);
+    return std::ranges::all_of(words, is_given) && std::ranges::none_of(others, is_given);
   }
 
   /// A number in SI; its range is given in `unit`.
@@ -128,9 +118,7 @@ public:
       if (values.size() != dim)
         throw InputError("has {} coordinate(s); there must be {}, e.g. \"{} mm\"", values.size(), dim == 2 ? "2" : "3",
                          dim == 2 ? "25, 50" : "25, 25, 50");
-      Vector<dim> point;
-      std::copy(values.begin(), values.end(), point.data());
-      return point;
+      return Vector<dim>(values.data());
     });
   }
 
@@ -169,11 +157,9 @@ public:
   std::uint64_t count(const std::string_view word) const
   {
     return read(word, [](const std::string_view text) {
-      std::uint64_t value = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error != std::errc() || end != text.data() + text.size())
-        throw InputError("must be an integer >= 0");
-      return value;
+      if (const auto value = number_in<std::uint64_t>(text))
+        return *value;
+      throw InputError("must be an integer >= 0");
     });
   }
 };
@@ -268,11 +254,10 @@ std::map<std::string, SmoothSides> read_layers(const std::string_view text)
       const std::size_t colon = std::min(piece.find(':'), piece.size());
       const std::string layer = in_small_letters(trim(piece.substr(0, colon)));
       const auto words = words_of(piece.substr(std::min(colon + 1, piece.size())));
-      const auto sides = layer.empty() ? std::nullopt : read_smooth_sides(Quantities(words, 0, and_smooth({})));
+      const auto sides = layer.empty() ? std::nullopt : read_smooth_sides(Quantities(words, and_smooth({})));
       if (!sides)
-        throw InputError(
-          fmt::format("{} is no layer with smooth sides; write LAYER: smooth, e.g. bedding: smooth friction 0.4",
-                      in_quotes(piece)));
+        throw InputError("{} is no layer with smooth sides; write LAYER: smooth, e.g. bedding: smooth friction 0.4",
+                         in_quotes(piece));
       if (!layers.emplace(layer, *sides).second)
         throw InputError("{} is given twice", layer);
     }
@@ -361,64 +346,41 @@ const std::vector<Form>& forms()
 
 Shape parse_shape(const std::string_view text)
 {
-  const auto words = words_of(text);
+  const auto all_words = words_of(text);
+  const std::span words(all_words);
   for (const Form& form : forms())
-    {
-      const std::size_t n = words_of(form.name).size();
-      if (words.size() < n || joined(words, 0, n) != form.name)
-        continue;
-      try
-        {
-          return form.read(Quantities(words, n, form.words));
-        }
-      catch (const InputError& error)
-        {
-          throw InputError("{}: {}", form.name, error.what());
-        }
-    }
-  std::vector<std::string_view> names;
-  for (const Form& form : forms())
-    names.push_back(form.name);
-  throw InputError(
-    fmt::format("{} is no shape; it begins with one of: {}", in_quotes(trim(text)), fmt::join(names, ", ")));
+    if (const std::size_t n = words_of(form.name).size(); words.size() >= n && joined(words.first(n)) == form.name)
+      return rephrased([&] { return form.read(Quantities(words.subspan(n), form.words)); },
+                       [&](const std::string& what) { return InputError("{}: {}", form.name, what); });
+  throw InputError("{} is no shape; it begins with one of: {}", in_quotes(text),
+                   fmt::join(mapped<std::string_view>(forms(), &Form::name), ", "));
 }
 } // namespace
 
-std::vector<Shape> parse_shapes(std::string_view text)
+std::vector<Shape> parse_shapes(const std::string_view text)
 {
   std::vector<Shape> shapes;
-  for (;;)
+  for (const std::string_view piece : split_at("|", text))
     {
-      const std::size_t bar = text.find('|');
       if (shapes.size() == most_shapes)
         throw InputError("must be at most {} shapes", most_shapes);
-      try
-        {
-          shapes.push_back(parse_shape(text.substr(0, bar)));
-        }
-      catch (const InputError& error)
-        {
-          throw InputError("shape {}, {}", shapes.size() + 1, error.what());
-        }
-      if (bar == std::string_view::npos)
-        return shapes;
-      text.remove_prefix(bar + 1);
+      shapes.push_back(
+        rephrased([&] { return parse_shape(piece); },
+                  [&](const std::string& what) { return InputError("shape {}, {}", shapes.size() + 1, what); }));
     }
+  return shapes;
 }
 
 std::vector<Entry<Input>> flaw_entries()
 {
-  const EntryFlags of_rock{.varies = true, .of_specimen = true};
-  const EntryFlags of_body{.of_specimen = true};
   return {
     {"Shapes",
-     Entry<Input>::Text{
-       "", "none, or shapes separated by upright bars",
-       [](Input& input, const std::string_view text) {
-         input.flaws.shapes = text == none ? std::vector<Shape>() : parse_shapes(text);
-         input.flaws.text = text == none ? "" : joined(words_of(text), 0, words_of(text).size());
-       },
-       [](const Input& input) { return input.flaws.text.empty() ? std::string(none) : input.flaws.text; }},
+     Entry<Input>::Text{"", "none, or shapes separated by upright bars",
+                        [](Input& input, const std::string_view text) {
+                          input.flaws.shapes = text == none ? std::vector<Shape>() : parse_shapes(text);
+                          input.flaws.text = as_written(text);
+                        },
+                        [](const Input& input) { return or_none(input.flaws.text); }},
      "what is put into the finished specimen, in any number. A hole is `hole centre 25, 50 mm radius 5 mm`. "
      "`semi-axes 5, 3 mm angle 30 deg` may take the place of the radius, and `corners 20, 40, 30, 40, 25, 50 mm` that of both. A "
      "slot is `slot from 25, 0 mm to 25, 12 mm width 2 mm`. Unbonded joints: `closed flaw centre 25, 50 mm length 12 mm angle 45 deg`, or with `from` and "
@@ -440,13 +402,11 @@ std::vector<Entry<Input>> flaw_entries()
                           input.flaws.traces = std::move(traces.shapes);
                           input.flaws.left_out = std::move(traces.left_out);
                         },
-                        [](const Input& input) {
-                          return input.flaws.traces_file.empty() ? std::string(none) : input.flaws.traces_file;
-                        }},
+                        [](const Input& input) { return or_none(input.flaws.traces_file); }},
      "closed flaws of a joint map: a CSV with the columns from_x_m,from_y_m,to_x_m,to_y_m (and layer), or a DXF whose lines "
      "and polylines are the traces, in the unit of its header (y along the axis of the tests). Parts outside of the "
      "specimen are left out",
-     of_body}};
+     {.of_specimen = true}}};
 }
 
 std::vector<Entry<MapParameters>> map_entries()
@@ -477,9 +437,9 @@ std::vector<Entry<MapParameters>> map_entries()
      Entry<P>::Text{"", "none, or LAYER: smooth ..., separated by upright bars",
                     [](P& map, const std::string_view text) {
                       map.smooth_layers = text == none ? std::map<std::string, SmoothSides>() : read_layers(text);
-                      map.text = text == none ? "" : joined(words_of(text), 0, words_of(text).size());
+                      map.text = as_written(text);
                     },
-                    [](const P& map) { return map.text.empty() ? std::string(none) : map.text; }},
+                    [](const P& map) { return or_none(map.text); }},
      "layers of the joint map whose traces are smooth joints, with the words of a closed flaw: `bedding: smooth friction "
      "0.4 | faults: smooth friction 0.3 cohesion 1 MPa`; the traces of other layers are unbonded joints",
      of_rock}};

@@ -46,18 +46,14 @@ std::string read_text(const std::filesystem::path& file)
 /// Section/Entry = value, of the command line.
 GivenEntry setting_of(const std::string& text)
 {
-  const std::size_t equals = text.find('=');
   const std::size_t slash = text.find('/');
-  if (equals == std::string::npos || slash > equals)
+  if (const std::size_t equals = text.find('='); equals == std::string::npos || slash > equals)
     throw InputError("--set {}: write \"Section/Entry = value\", e.g. \"Specimen/Width = 30 mm\"", in_quotes(text));
-  const std::string_view all = text;
-  GivenEntry given{std::string(trim(all.substr(0, slash))),
-                   std::string(trim(all.substr(slash + 1, equals - slash - 1))),
-                   std::string(trim(all.substr(equals + 1))), "--set"};
-  check_section(given.section, given.place);
-  check_name(given);
-  return given;
+  const std::string section(trim(std::string_view(text).substr(0, slash)));
+  check_section(section, "--set");
+  return entry_of(section, text.substr(slash + 1), "--set");
 }
+
 } // namespace
 
 void check_section(const std::string& section, const std::string& place)
@@ -69,75 +65,68 @@ void check_section(const std::string& section, const std::string& place)
 
 void check_name(const GivenEntry& given)
 {
-  if (!find_parameter(given.section, given.entry))
-    throw InputError("{}: {}/{}: no such entry{}", given.place, given.section, excerpt(given.entry),
-                     suggestion(given.entry, entry_names(given.section)));
+  if (find_parameter(given.name))
+    return;
+  const std::string section = given.name.substr(0, given.name.find('/'));
+  const std::string entry = given.name.substr(section.size() + 1);
+  throw InputError("{}: {}/{}: no such entry{}", given.place, section, excerpt(entry),
+                   suggestion(entry, entry_names(section)));
 }
 
-GivenEntries::GivenEntries(const std::filesystem::path& file, const std::vector<std::string>& settings)
-  : name(file.string())
+GivenEntries::GivenEntries(const std::filesystem::path& path, const std::vector<std::string>& settings)
+  : file(path.string())
 {
-  const std::string text = read_text(file);
-  if (file.extension() == ".prm")
-    entries = scan_prm(name, text);
-  else if (file.extension() == ".json")
-    entries = scan_json(name, text);
+  const std::string text = read_text(path);
+  if (path.extension() == ".prm")
+    entries = scan_prm(file, text);
+  else if (path.extension() == ".json")
+    entries = scan_json(file, text);
   else
-    throw InputError("{}: the name must end in .prm or .json", name);
+    throw InputError("{}: the name must end in .prm or .json", file);
 
   for (const std::string& setting : settings)
     {
       const GivenEntry given = setting_of(setting);
-      const auto same = std::ranges::find_if(
-        entries, [&](const GivenEntry& one) { return one.section == given.section && one.entry == given.entry; });
+      const auto same = std::ranges::find(entries, given.name, &GivenEntry::name);
       if (same == entries.end())
         entries.push_back(given);
       else if (same->place == given.place)
-        throw InputError("--set: {}/{}: is given twice", given.section, given.entry);
+        throw InputError("--set: {}: is given twice", given.name);
       else
         *same = given;
     }
 }
 
-std::string GivenEntries::value(const std::string_view section, const std::string_view entry) const
+std::string GivenEntries::value(const std::string_view entry) const
 {
-  const GivenEntry* const given = valid(section, entry);
-  return given ? given->value : find_parameter(section, entry)->default_text();
+  const GivenEntry* const given = valid(entry);
+  return given ? given->value : find_parameter(entry)->default_text();
 }
 
-GivenEntries GivenEntries::with(const std::vector<VariantSetting>& settings, const std::string_view section,
-                                const std::string_view entry) const
+GivenEntries GivenEntries::with(const std::vector<VariantSetting>& settings, const std::string_view entry) const
 {
   GivenEntries changed = *this;
-  const GivenEntry* const source = find(entries, section, entry);
+  const GivenEntry* const source = find(entries, entry);
   for (const VariantSetting& setting : settings)
-    {
-      const std::size_t slash = setting.entry.find('/');
-      changed.of_variant.push_back({setting.entry.substr(0, slash), setting.entry.substr(slash + 1), setting.value,
-                                    source ? source->place : name});
-    }
+    changed.of_variant.push_back({setting.entry, setting.value, source ? source->place : file});
   return changed;
 }
 
-InputError GivenEntries::error(const std::string_view section, const std::string_view entry,
-                               const std::string_view text) const
+InputError GivenEntries::error(const std::string_view entry, const std::string_view text) const
 {
-  const GivenEntry* const given = valid(section, entry);
-  return InputError("{}: {}/{} = {}: {}", given ? given->place : name, section, entry, excerpt(value(section, entry)),
-                    text);
+  const GivenEntry* const given = valid(entry);
+  return InputError("{}: {} = {}: {}", given ? given->place : file, entry, excerpt(value(entry)), text);
 }
 
-const GivenEntry* GivenEntries::find(const std::vector<GivenEntry>& among, const std::string_view section,
-                                     const std::string_view entry)
+const GivenEntry* GivenEntries::find(const std::vector<GivenEntry>& among, const std::string_view entry)
 {
-  const auto found = std::ranges::find_if(
-    among, [&](const GivenEntry& candidate) { return candidate.section == section && candidate.entry == entry; });
+  const auto found = std::ranges::find(among, entry, &GivenEntry::name);
   return found == among.end() ? nullptr : &*found;
 }
 
-const GivenEntry* GivenEntries::valid(const std::string_view section, const std::string_view entry) const
+const GivenEntry* GivenEntries::valid(const std::string_view entry) const
 {
-  const GivenEntry* const varied = find(of_variant, section, entry);
-  return varied ? varied : find(entries, section, entry);
+  const GivenEntry* const varied = find(of_variant, entry);
+  return varied ? varied : find(entries, entry);
 }
 } // namespace feldspar

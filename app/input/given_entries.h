@@ -15,8 +15,7 @@ namespace feldspar
 /// An entry that the file gives.
 struct GivenEntry
 {
-  std::string section;
-  std::string entry;
+  std::string name;  ///< Section/Entry
   std::string value; ///< as it would stand in a .prm file, trimmed
   std::string place; ///< `file:line`, or `file` where the format keeps no lines
 };
@@ -28,6 +27,9 @@ std::vector<GivenEntry> scan_prm(const std::string& file, const std::string& tex
 /// {"Section": {"Entry": value, …}, …}; a value is a string, a number, an array of them (a list), or null (none).
 /// Throws InputError.
 std::vector<GivenEntry> scan_json(const std::string& file, const std::string& text);
+
+/// The entry of a section that "NAME = VALUE" sets. Throws InputError.
+GivenEntry entry_of(const std::string& section, const std::string& setting, const std::string& place);
 
 /// Throws InputError unless there is a section of that name.
 void check_section(const std::string& section, const std::string& place);
@@ -41,11 +43,11 @@ class GivenEntries
 public:
   /// Reads a .prm or .json file. `settings`: Section/Entry = value each, in place of what the file says. Throws
   /// InputError.
-  explicit GivenEntries(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+  explicit GivenEntries(const std::filesystem::path& path, const std::vector<std::string>& settings = {});
 
   /// Entries that do not come from a file, each with its place.
   explicit GivenEntries(std::vector<GivenEntry> given)
-    : name("input")
+    : file("input")
     , entries(std::move(given))
   {
   }
@@ -53,24 +55,32 @@ public:
   const std::vector<GivenEntry>& all() const { return entries; }
 
   /// Returns whether the file gives an entry, whatever a variant sets.
-  bool has(std::string_view section, std::string_view entry) const { return find(entries, section, entry) != nullptr; }
+  bool has(std::string_view entry) const { return find(entries, entry) != nullptr; }
 
   /// Value of the variant, else as given, or else the default.
-  std::string value(std::string_view section, std::string_view entry) const;
+  std::string value(std::string_view entry) const;
 
   /// The same for the errors of a variant, whose settings are given at the place of an entry.
-  GivenEntries with(const std::vector<VariantSetting>& settings, std::string_view section,
-                    std::string_view entry) const;
+  GivenEntries with(const std::vector<VariantSetting>& settings, std::string_view entry) const;
 
   /// An error about an entry: `beishan.prm:12: Flat joint/Bond friction angle = 95 deg: ` and the text.
-  InputError error(std::string_view section, std::string_view entry, std::string_view text) const;
+  InputError error(std::string_view entry, std::string_view text) const;
+
+  /// The same; the text has values.
+  template <typename First, typename... More>
+  InputError error(const std::string_view entry, fmt::format_string<First, More...> text, First&& first,
+                   More&&... more) const
+  {
+    return error(entry, std::string_view(fmt::format(text, std::forward<First>(first), std::forward<More>(more)...)));
+  }
 
 private:
-  static const GivenEntry* find(const std::vector<GivenEntry>& among, std::string_view section, std::string_view entry);
   /// The entry as the variant sets it, or else as it is given; none where it is neither.
-  const GivenEntry* valid(std::string_view section, std::string_view entry) const;
+  const GivenEntry* valid(std::string_view entry) const;
 
-  std::string name;
+  static const GivenEntry* find(const std::vector<GivenEntry>& among, std::string_view entry);
+
+  std::string file;
   std::vector<GivenEntry> entries;
   std::vector<GivenEntry> of_variant;
 };

@@ -20,10 +20,8 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <system_error>
-#include <utility>
 
 namespace feldspar
 {
@@ -34,7 +32,7 @@ void settle_dimension(Input& input, const GivenEntries& values)
 {
   if (input.specimen.dimension == 3)
     for (const Parameter& parameter : parameter_table())
-      if (!parameter.flags.in_space.empty() && !values.has(parameter.section, parameter.entry))
+      if (!parameter.flags.in_space.empty() && !values.has(parameter.name()))
         parameter.read(input, parameter.flags.in_space);
 }
 
@@ -42,22 +40,20 @@ void check_demands(const Input& input, const GivenEntries& values)
 {
   for (const Parameter& parameter : parameter_table())
     if (const Demand* const unmet = unmet_demand(input, parameter))
-      throw values.error(parameter.section, parameter.entry, unmet->otherwise);
+      throw values.error(parameter.name(), unmet->otherwise);
 }
 
 /// One of two entries says which pairs get a joint; a coordination number takes the place of the default gap.
 void settle_installation(Input& input, const GivenEntries& values)
 {
   for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
-    const std::string section = section_of(law);
-    if (joint.coordination_number && !values.has(section, "Installation gap ratio"))
+    const std::string entry = section_of(law) + "/Installation gap ratio";
+    if (joint.coordination_number && !values.has(entry))
       joint.installation_gap_ratio.reset();
     if (joint.installation_gap_ratio && joint.coordination_number)
-      throw values.error(section, "Installation gap ratio",
-                         "excludes Coordination number, which is given too; keep one of them");
+      throw values.error(entry, "excludes Coordination number, which is given too; keep one of them");
     if (!joint.installation_gap_ratio && !joint.coordination_number)
-      throw values.error(section, "Installation gap ratio",
-                         "leaves the joints undetermined; give a gap, or Coordination number");
+      throw values.error(entry, "leaves the joints undetermined; give a gap, or Coordination number");
   });
 }
 
@@ -65,15 +61,14 @@ void check_bonds(const Input& input, const GivenEntries& values)
 {
   for_each_joint_section(input, [&](const std::string_view law, const auto& joint) {
     if (joint.gapped_fraction + joint.slit_fraction > 1.0)
-      throw values.error(section_of(law), "Slit fraction",
-                         fmt::format("must be at most 1 together with Gapped fraction = {}",
-                                     values.value(section_of(law), "Gapped fraction")));
+      throw values.error(section_of(law) + "/Slit fraction", "must be at most 1 together with Gapped fraction = {}",
+                         values.value(section_of(law) + "/Gapped fraction"));
     constexpr double largest_variation = 3.0; // a modulus of 0.4: half of the bonds have a tenth of the mean or less
     if (joint.strength_distribution == StrengthDistribution::weibull &&
         (joint.bond_tensile_strength_deviation > largest_variation * joint.bond_tensile_strength ||
          joint.bond_cohesion_deviation > largest_variation * joint.bond_cohesion))
-      throw values.error(section_of(law), "Strength distribution",
-                         fmt::format("a standard deviation must be at most {:g} times its mean", largest_variation));
+      throw values.error(section_of(law) + "/Strength distribution",
+                         "a standard deviation must be at most {:g} times its mean", largest_variation);
   });
 }
 
@@ -97,21 +92,17 @@ void check_uses(const Input& input, const std::vector<Variant>& all, const Given
   for (const Variant& variant : all)
     for (const VariantSetting& setting : variant.settings)
       {
-        const std::size_t slash = setting.entry.find('/');
-        const std::string section = setting.entry.substr(0, slash);
-        const Parameter& parameter = *find_parameter(section, setting.entry.substr(slash + 1));
-        if (has_use_for(variant.input, parameter))
-          continue;
+        const Parameter& parameter = *find_parameter(setting.entry);
         const std::string kept = parameter.write(input);
-        if (parameter.write(variant.input) == kept)
+        if (has_use_for(variant.input, parameter) || parameter.write(variant.input) == kept)
           continue;
         const VariantParameters& wanted = input.variants;
         const std::string remedy =
           wanted.in_step ? fmt::format("give it {} in such a variant", kept)
                          : fmt::format("set Combine = in step, or give a Table, with {} in such a variant", kept);
-        throw values.error("Variants", wanted.table.empty() ? "Values" : "Table",
-                           fmt::format("{} = {}: {}; {}", setting.entry, excerpt(setting.value),
-                                       refusal_of(section, {variant.input.specimen.joint_law}), remedy));
+        throw values.error(wanted.table.empty() ? "Variants/Values" : "Variants/Table", "{} = {}: {}; {}",
+                           setting.entry, excerpt(setting.value),
+                           refusal_of(parameter.section, {variant.input.specimen.joint_law}), remedy);
       }
 }
 
@@ -122,48 +113,44 @@ void check_joint_law(const Input& input, const GivenEntries& values)
   std::set<std::string> laws;
   for (const Variant& variant : all)
     laws.insert(variant.input.specimen.joint_law);
-  const auto has_use = [&](const std::string_view section, const std::string_view entry) {
-    return std::ranges::any_of(
-      all, [&](const Variant& variant) { return has_use_for(variant.input, *find_parameter(section, entry)); });
+  const auto has_use = [&](const Parameter& parameter) {
+    return std::ranges::any_of(all, [&](const Variant& variant) { return has_use_for(variant.input, parameter); });
   };
   for (const GivenEntry& given : values.all())
-    if (!has_use(given.section, given.entry))
-      throw values.error(given.section, given.entry, refusal_of(given.section, laws));
+    if (const Parameter& parameter = *find_parameter(given.name); !has_use(parameter))
+      throw values.error(given.name, refusal_of(parameter.section, laws));
   for (const std::string& entry : input.variants.entries)
-    if (const std::size_t slash = entry.find('/'); !has_use(entry.substr(0, slash), entry.substr(slash + 1)))
-      throw values.error("Variants", input.variants.table.empty() ? "Entry" : "Table",
-                         refusal_of(entry.substr(0, slash), laws));
+    if (const Parameter& varied = *find_parameter(entry); !has_use(varied))
+      throw values.error(input.variants.table.empty() ? "Variants/Entry" : "Variants/Table",
+                         refusal_of(varied.section, laws));
   check_uses(input, all, values);
 }
 
-/// The entry that makes a grain-based model of the rock, section first; none of another rock.
-std::optional<std::pair<const char*, const char*>> grain_based_entry(const Input& input)
+/// The entry that makes a grain-based model of the rock; empty of another rock.
+std::string_view grain_based_entry(const Input& input)
 {
   if (input.mineral_grains.mean_size)
-    return std::pair("Mineral grains", "Mean size");
-  if (input.minerals.form_of_rock() == MineralGrainForm::smooth_boundaries)
-    return std::pair("Minerals", "Grains");
-  return std::nullopt;
+    return "Mineral grains/Mean size";
+  return input.minerals.form_of_rock() == MineralGrainForm::smooth_boundaries ? "Minerals/Grains" : "";
 }
 
 void check_smooth_joints(const Input& input, const GivenEntries& values)
 {
   if (!has_smooth_joints(input))
     return;
-  const auto entry = grain_based_entry(input);
-  if (input.specimen.shape == BodyShape::periodic)
+  if (const std::string_view entry = grain_based_entry(input); input.specimen.shape == BodyShape::periodic)
     throw values.error(
-      entry ? entry->first : "Flaws", entry ? entry->second : "Shapes",
+      entry.empty() ? "Flaws/Shapes" : entry,
       "puts in smooth joints, which need Specimen/Shape = box or cylinder; it is periodic, and a representative "
       "volume takes none");
-  const auto check = [&](const SmoothJointParameters& wanted, const char* section, const char* entry) {
+  const auto check = [&](const SmoothJointParameters& wanted, const char* entry) {
     if (const std::string what = objection(wanted); !what.empty())
-      throw values.error(section, entry, what);
+      throw values.error(entry, what);
   };
-  check(input.smooth_joint, "Smooth joint", "Dilation angle");
+  check(input.smooth_joint, "Smooth joint/Dilation angle");
   for (const Shape& shape : input.flaws.shapes)
     if (const SmoothSides* sides = smooth_sides(shape))
-      check(sides->among(input.smooth_joint), "Flaws", "Shapes");
+      check(sides->among(input.smooth_joint), "Flaws/Shapes");
 }
 
 /// Boundaries without a bond must be given by the user: the defaults of section Smooth joint are those of open flaws,
@@ -171,65 +158,66 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
 /// zero.
 void check_mineral_grains(const Input& input, const GivenEntries& values)
 {
-  const auto is_said = [&](const std::string& entry) {
-    const auto& varied = input.variants.entries;
-    return values.has("Smooth joint", entry) || contains(varied, "Smooth joint/" + entry);
+  const auto is_said = [&](const std::string_view entry) {
+    return values.has(entry) || contains(input.variants.entries, entry);
   };
-  const auto entry = grain_based_entry(input);
-  if (!entry)
+  const std::string_view entry = grain_based_entry(input);
+  if (entry.empty())
     return;
-  const auto refuse = [&values, of = *entry](const std::string& why) { throw values.error(of.first, of.second, why); };
-  const bool has_tensile_strength = is_said("Tensile strength");
-  const bool has_cohesion = is_said("Cohesion");
+  const bool has_tensile_strength = is_said("Smooth joint/Tensile strength");
+  const bool has_cohesion = is_said("Smooth joint/Cohesion");
   if (!has_tensile_strength && !has_cohesion)
-    refuse("says nothing of the bonds at the boundaries: give Smooth joint/Tensile strength and Cohesion, or 0 MPa for "
-           "open boundaries");
-  const auto& [tensile_strength, cohesion] =
-    std::pair(input.smooth_joint.tensile_strength, input.smooth_joint.cohesion);
-  if (has_tensile_strength != has_cohesion && (tensile_strength > 0.0 || cohesion > 0.0))
-    refuse(fmt::format("has boundaries bonded by Smooth joint/{}, and Smooth joint/{} is missing: give it too, 0 MPa "
+    throw values.error(entry,
+                       "says nothing of the bonds at the boundaries: give Smooth joint/Tensile strength and Cohesion, "
+                       "or 0 MPa for open boundaries");
+  if (has_tensile_strength != has_cohesion &&
+      (input.smooth_joint.tensile_strength > 0.0 || input.smooth_joint.cohesion > 0.0))
+    throw values.error(entry,
+                       "has boundaries bonded by Smooth joint/{}, and Smooth joint/{} is missing: give it too, 0 MPa "
                        "for none",
-                       has_cohesion ? "Cohesion" : "Tensile strength", has_cohesion ? "Tensile strength" : "Cohesion"));
+                       has_cohesion ? "Cohesion" : "Tensile strength", has_cohesion ? "Tensile strength" : "Cohesion");
 }
 
 void check_minerals(const Input& input, const GivenEntries& values)
 {
   const MineralParameters& wanted = input.minerals;
   if (wanted.minerals.empty() && input.calibration.boundary_strength)
-    throw values.error("Calibration", "Boundary strength", "needs minerals; set Minerals/Table");
+    throw values.error("Calibration/Boundary strength", "needs minerals; set Minerals/Table");
   if (wanted.minerals.empty())
     return;
-  const auto refuse = [&](const char* entry, const std::string& why) { throw values.error("Minerals", entry, why); };
+  const auto refuse = [&](const char* entry, const std::string& why) { throw values.error(entry, why); };
   for (const MineralBoundary& boundary : wanted.boundaries)
     for (const std::string& name : {boundary.one, boundary.two})
-      if (std::ranges::find(wanted.minerals, name, &Mineral::name) == wanted.minerals.end())
-        refuse("Boundaries", fmt::format("{} is not in the table of minerals", in_quotes(name)));
+      if (!contains(wanted.minerals, name, &Mineral::name))
+        refuse("Minerals/Boundaries", fmt::format("{} is not in the table of minerals", in_quotes(name)));
   if (wanted.map)
     {
       if (wanted.form == MineralGrainForm::smooth_boundaries)
         refuse(
-          "Grains",
+          "Minerals/Grains",
           "smooth boundaries are planes between Voronoi cells, and the mineral grains of a Map have any shape; set "
           "Grains = breakable");
       if (std::ranges::any_of(wanted.minerals, [](const Mineral& one) { return one.share || one.size > 0.0; }))
-        refuse("Table", "has shares or sizes, which the map gives; leave these columns out, or the map");
-      const auto& [width, height] = std::pair(input.specimen.width, input.specimen.height);
+        refuse("Minerals/Table", "has shares or sizes, which the map gives; leave these columns out, or the map");
+      const double width = input.specimen.width;
       // A body out of a file has a size of its own, which is checked when the minerals are put in.
       const bool is_of_file = !input.specimen.specimen_file.empty() || !input.specimen.packing_file.empty();
-      minerals_of_map(wanted, is_of_file ? std::array{0.0, 0.0, 0.0}
-                                         : std::array{width, input.specimen.dimension == 3 ? width : 0.0, height});
+      minerals_of_map(
+        wanted, is_of_file ? std::array{0.0, 0.0, 0.0}
+                           : std::array{width, input.specimen.dimension == 3 ? width : 0.0, input.specimen.height});
       return;
     }
   double sum = 0.0;
   for (const Mineral& one : wanted.minerals)
     {
       if (!one.share || !(*one.share > 0.0) || !(one.size > 0.0))
-        refuse("Table", fmt::format("{} needs a share above 0 and a size above 0, for there is no Map", one.name));
+        refuse("Minerals/Table",
+               fmt::format("{} needs a share above 0 and a size above 0, for there is no Map", one.name));
       sum += *one.share;
     }
   constexpr double round_off = 1e-6;
   if (std::abs(sum - 1.0) > round_off)
-    refuse("Table", fmt::format("the shares add up to {:.4g} %; they must be 100 % together", 100.0 * sum));
+    refuse("Minerals/Table", fmt::format("the shares add up to {:.4g} %; they must be 100 % together", 100.0 * sum));
 }
 
 void check_clumps(const Input& input, const GivenEntries& values)
@@ -240,12 +228,12 @@ void check_clumps(const Input& input, const GivenEntries& values)
   if (has_rigid_minerals && (input.specimen.dimension != 2 || input.specimen.shape != BodyShape::box ||
                              !input.flaws.shapes.empty() || !input.flaws.traces.empty()))
     throw values.error(
-      "Minerals", "Grains",
+      "Minerals/Grains",
       "rigid mineral grains are in the plane, in a box and without flaws: set Specimen/Dimension = 2 and "
       "Specimen/Shape = box, and leave section Flaws out");
   for (const TestKind& kind : input.test_list)
     if (const std::string objection = objection_to_clumps(kind); !objection.empty())
-      throw values.error("Tests", "List", objection);
+      throw values.error("Tests/List", objection);
 }
 
 /// Reads the table, where there is one.
@@ -253,23 +241,20 @@ void complete_variants(Input& input, const GivenEntries& values)
 {
   VariantParameters& wanted = input.variants;
   const bool has_table = !wanted.table.empty();
-  try
-    {
+  rephrased(
+    [&] {
       if (has_table)
         read_variant_table(wanted);
       variants(input);
-    }
-  catch (const InputError& error)
-    {
+    },
+    [&](const std::string& what) {
+      if (has_table)
+        return values.error("Variants/Table", what);
       const bool has_commas =
         wanted.values.size() == 1 && wanted.values[0].size() == 1 && wanted.values[0][0].find(',') != std::string::npos;
-      throw values.error("Variants",
-                         has_table               ? "Table"
-                         : wanted.values.empty() ? "Entry"
-                                                 : "Values",
-                         std::string(error.what()) +
-                           (has_commas && !has_table ? "; values are separated by semicolons" : ""));
-    }
+      return values.error(wanted.values.empty() ? "Variants/Entry" : "Variants/Values", "{}{}", what,
+                          has_commas ? "; values are separated by semicolons" : "");
+    });
 }
 
 /// Reads the table of the rocks of groups of cells, where there is one.
@@ -284,7 +269,7 @@ void complete_rocks(Input& input, const GivenEntries& values)
       rocks_of_sample(input);
       input.sample.groups = input.rocks.labels;
     },
-    [&](const std::string& what) { return values.error("Sample", "Rocks", what); });
+    [&](const std::string& what) { return values.error("Sample/Rocks", what); });
 }
 
 void check_specimen(const Input& input, const GivenEntries& values)
@@ -293,25 +278,25 @@ void check_specimen(const Input& input, const GivenEntries& values)
   if (!specimen.packing_file.empty() || !specimen.specimen_file.empty())
     {
       if (!specimen.specimen_file.empty() && (input.seeds.size() > 1 || !input.variants.entries.empty()))
-        throw values.error("Specimen", "Specimen file", "is one specimen; it goes with one seed and no variants");
+        throw values.error("Specimen/Specimen file", "is one specimen; it goes with one seed and no variants");
       return; // files bring their own radii
     }
   if (specimen.packing_unit != SpecimenParameters().packing_unit || !specimen.packing_shift.empty())
-    throw values.error("Specimen", specimen.packing_shift.empty() ? "Packing unit" : "Packing shift",
+    throw values.error(specimen.packing_shift.empty() ? "Specimen/Packing unit" : "Specimen/Packing shift",
                        "needs a Packing file, whose grains it brings to their place");
   // This check also catches a slip of the unit before it fills the memory.
   constexpr double most_grains = 1e7;
   if (const double n_grains = expected_grains(specimen); n_grains > most_grains)
-    throw values.error("Specimen", "Minimum radius",
-                       fmt::format("gives some {:.0e} grains; more than {:.0e} are not packed", n_grains, most_grains));
+    throw values.error("Specimen/Minimum radius", "gives some {:.0e} grains; more than {:.0e} are not packed", n_grains,
+                       most_grains);
   const double least = 4.0 * specimen.largest_radius();
   const std::string demand =
     fmt::format("must be at least {}, or there is no room for two grains of the largest radius",
                 format_quantity(least, "mm", length));
   if (specimen.width / specimen.cells_across < least)
-    throw values.error("Specimen", "Width", demand);
+    throw values.error("Specimen/Width", demand);
   if (specimen.height / specimen.cells_along < least)
-    throw values.error("Specimen", "Height", demand);
+    throw values.error("Specimen/Height", demand);
 }
 
 /// Says how much of a joint map lies out of the specimen.
@@ -336,25 +321,25 @@ void remark_on_map(Input& input)
 /// Checks the flaws. The size of a specimen out of a file is not known yet; putting the flaws in checks them again.
 void check_flaws(const Input& input, const GivenEntries& values)
 {
-  for (const char* const entry : {"Traces origin", "Traces angle", "Traces scale", "Smooth layers"})
-    if (input.flaws.traces.empty() && values.has("Flaws", entry))
-      throw values.error("Flaws", entry, "is of a joint map; give Traces file too");
-  for (const auto& smooth : input.flaws.map.smooth_layers)
-    if (const std::string& layer = smooth.first; std::ranges::none_of(
-          input.flaws.traces, [&](const Shape& trace) { return std::get<ClosedFlaw>(trace).map_layer == layer; }))
-      throw values.error("Flaws", "Smooth layers",
-                         fmt::format("no trace of the map is on a layer {}", in_quotes(layer)));
+  for (const char* const entry :
+       {"Flaws/Traces origin", "Flaws/Traces angle", "Flaws/Traces scale", "Flaws/Smooth layers"})
+    if (input.flaws.traces.empty() && values.has(entry))
+      throw values.error(entry, "is of a joint map; give Traces file too");
+  const auto layer_of = [](const Shape& trace) { return std::get<ClosedFlaw>(trace).map_layer; };
+  for (const auto& [layer, sides] : input.flaws.map.smooth_layers)
+    if (!contains(input.flaws.traces, layer, layer_of))
+      throw values.error("Flaws/Smooth layers", "no trace of the map is on a layer {}", in_quotes(layer));
   if (!input.specimen.specimen_file.empty())
     return;
   const auto check = [&](const std::vector<Shape>& shapes, const char* entry) {
-    const auto& [width, height] = std::pair(input.specimen.width, input.specimen.height);
+    const double width = input.specimen.width, height = input.specimen.height;
     const std::string what = input.specimen.dimension == 2 ? objection<2>(shapes, Vector<2>(width, height))
                                                            : objection<3>(shapes, Vector<3>(width, width, height));
     if (!what.empty())
-      throw values.error("Flaws", entry, what);
+      throw values.error(entry, what);
   };
-  check(input.flaws.shapes, "Shapes");
-  check(input.flaws.placed_traces(), "Traces file");
+  check(input.flaws.shapes, "Flaws/Shapes");
+  check(input.flaws.placed_traces(), "Flaws/Traces file");
 }
 
 /// The entries of grains, joints and contacts that are given though the specimen file has them already.
@@ -364,15 +349,13 @@ std::vector<std::string> settled_by_file(const Input& input, const GivenEntries&
   if (input.specimen.specimen_file.empty())
     return entries;
   // These are checked against the file, or name it.
-  const std::vector<std::string> read{"Specimen/Dimension", "Specimen/Joint law", "Specimen/Specimen file",
-                                      "Specimen/Packing file"};
-  const auto is_of_body = [&](const GivenEntry& given) {
-    return given.section == "Specimen" || given.section == "Particle contact" ||
-           given.section == section_of(input.specimen.joint_law);
-  };
+  constexpr std::array read{"Specimen/Dimension", "Specimen/Joint law", "Specimen/Specimen file",
+                            "Specimen/Packing file"};
+  const std::array of_body{std::string("Specimen"), std::string("Particle contact"),
+                           section_of(input.specimen.joint_law)};
   for (const GivenEntry& given : values.all())
-    if (const std::string name = given.section + "/" + given.entry; is_of_body(given) && !contains(read, name))
-      entries.push_back(name);
+    if (contains(of_body, find_parameter(given.name)->section) && !contains(read, given.name))
+      entries.push_back(given.name);
   return entries;
 }
 
@@ -383,14 +366,14 @@ void complete_loading(Input& input, const GivenEntries& values)
   if (follower == input.test_list.end())
     return;
   const auto refuse = [&](const char* entry, const std::string& why) {
-    throw values.error("Tests", values.has("Tests", entry) ? entry : "List", fmt::format("{} {}", follower->name, why));
+    throw values.error(values.has(entry) ? entry : "Tests/List", "{} {}", follower->name, why);
   };
   if (input.tests.of<LoadingTable>().file.empty())
-    refuse("Loading table", "follows a table; name its CSV file by Tests/Loading table");
+    refuse("Tests/Loading table", "follows a table; name its CSV file by Tests/Loading table");
   if (input.tests.of<ConfinementParameters>().lateral_boundary != LateralBoundary::wall)
-    refuse("Lateral boundary", "presses by walls; set Lateral boundary = wall");
+    refuse("Tests/Lateral boundary", "presses by walls; set Lateral boundary = wall");
   if (input.tests.of<ConfinementParameters>().intermediate_stress)
-    refuse("Intermediate stress", "has one confinement on all sides; set Intermediate stress = none");
+    refuse("Tests/Intermediate stress", "has one confinement on all sides; set Intermediate stress = none");
   input.tests.of<LoadingTable>().stages = read_loading_stages(input.tests.of<LoadingTable>().file);
 }
 
@@ -398,9 +381,9 @@ void check_strain_path(const Input& input, const GivenEntries& values)
 {
   const std::size_t n = input.strain_path.direction.size();
   if (n != 0 && n != (input.specimen.dimension == 2 ? 3u : 6u))
-    throw values.error("Strain path", "Direction",
-                       fmt::format("has {} components; in {} dimensions there must be {}", n, input.specimen.dimension,
-                                   input.specimen.dimension == 2 ? "3: xx, yy, xy" : "6: xx, yy, zz, yz, xz, xy"));
+    throw values.error("Strain path/Direction", "has {} components; in {} dimensions there must be {}", n,
+                       input.specimen.dimension,
+                       input.specimen.dimension == 2 ? "3: xx, yy, xy" : "6: xx, yy, zz, yz, xz, xy");
 }
 } // namespace
 
@@ -431,8 +414,8 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
   Input input;
   input.folder = folder;
   for (const GivenEntry& given : values.all())
-    rephrased([&] { find_parameter(given.section, given.entry)->read(input, given.value); },
-              [&](const std::string& what) { return values.error(given.section, given.entry, what); });
+    rephrased([&] { find_parameter(given.name)->read(input, given.value); },
+              [&](const std::string& what) { return values.error(given.name, what); });
   settle_dimension(input, values);
   settle_installation(input, values);
   complete_loading(input, values);
@@ -443,7 +426,7 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
   for (const Variant& variant : variants(input))
     {
       const GivenEntries of_variant =
-        values.with(variant.settings, "Variants", input.variants.table.empty() ? "Values" : "Table");
+        values.with(variant.settings, input.variants.table.empty() ? "Variants/Values" : "Variants/Table");
       check_bonds(variant.input, of_variant);
       check_demands(variant.input, of_variant);
       check_specimen(variant.input, of_variant);
@@ -456,7 +439,7 @@ Input read_input(const GivenEntries& values, const std::filesystem::path& folder
     }
   if (!input.rocks.entries.empty())
     for (const Variant& rock : rocks_of_sample(input))
-      check_minerals(rock.input, values.with(rock.settings, "Sample", "Rocks"));
+      check_minerals(rock.input, values.with(rock.settings, "Sample/Rocks"));
   remark_on_map(input);
   return input;
 }

@@ -83,8 +83,8 @@ std::vector<double> read_gravity(const std::string_view text)
 
 std::string write_gravity(const std::vector<double>& components)
 {
-  const std::string text = fmt::format("{}", fmt::join(mapped<std::string>(components, format_number), ", "));
-  return text.empty() ? std::string(none) : text + " m/s^2";
+  const auto numbers = mapped<std::string>(components, format_number);
+  return numbers.empty() ? std::string(none) : fmt::format("{} m/s^2", fmt::join(numbers, ", "));
 }
 
 std::vector<std::string> read_variant_entries(const std::string_view text)
@@ -111,10 +111,9 @@ std::vector<std::vector<std::string>> read_variant_values(const std::string_view
 
 std::string write_variant_values(const std::vector<std::vector<std::string>>& values)
 {
-  std::string text;
-  for (const auto& list : values)
-    text += fmt::format("{}{}", text.empty() ? "" : " || ", fmt::join(list, "; "));
-  return values.empty() ? std::string(none) : text;
+  const auto lists =
+    mapped<std::string>(values, [](const auto& list) { return fmt::format("{}", fmt::join(list, "; ")); });
+  return lists.empty() ? std::string(none) : fmt::format("{}", fmt::join(lists, " || "));
 }
 
 std::vector<std::uint64_t> read_seeds(const std::string_view text)
@@ -141,8 +140,7 @@ std::vector<std::uint64_t> read_seeds(const std::string_view text)
       for (std::uint64_t i = 0; i <= last - first; ++i)
         seeds.push_back(first + i);
     }
-  std::set<std::uint64_t> seen;
-  for (const std::uint64_t seed : seeds)
+  for (std::set<std::uint64_t> seen; const std::uint64_t seed : seeds)
     if (!seen.insert(seed).second)
       throw InputError("seed {} is given twice", seed);
   return seeds;
@@ -162,12 +160,10 @@ std::vector<std::optional<double>> read_direction(const std::string_view text)
 
 std::string write_direction(const std::vector<std::optional<double>>& direction)
 {
-  std::string text;
-  for (const auto& component : direction)
-    text += (text.empty() ? "" : ", ") + (component ? format_number(*component) : std::string(free_component));
-  return text.empty() ? std::string(none) : text;
+  const auto components = mapped<std::string>(
+    direction, [](const auto& one) { return one ? format_number(*one) : std::string(free_component); });
+  return or_none(fmt::format("{}", fmt::join(components, ", ")));
 }
-
 } // namespace
 
 std::vector<Entry<Input>> test_list_entries()
@@ -181,7 +177,7 @@ std::vector<Entry<Input>> test_list_entries()
                       {.basic = true})};
 }
 
-Entry<Input> checkpoint_entry()
+std::vector<Entry<Input>> progress_entries()
 {
   const auto read = [](const std::string_view text) {
     const std::uint64_t steps = parse_count(text);
@@ -189,18 +185,15 @@ Entry<Input> checkpoint_entry()
       throw InputError("must be an integer > 0");
     return steps;
   };
-  return entry::text(
-    "Steps between checkpoints", &Input::steps_between_checkpoints, "", "integer > 0", read,
-    [](const std::uint64_t steps) { return std::to_string(steps); }, "after which `lab --resume` can take up a test");
-}
-
-Entry<Input> shared_body_entry()
-{
-  return entry::choice(
-    "Shared body", &Input::shared_body,
-    {{"by size", SharedBody::by_size}, {"always", SharedBody::always}, {"never", SharedBody::never}},
-    "whether the processes of mpirun compute each specimen together, with the same results, or each makes tests of its own; "
-    "by size: specimens of 100 000 grains and more together");
+  const auto write = [](const std::uint64_t steps) { return std::to_string(steps); };
+  return {
+    entry::text("Steps between checkpoints", &Input::steps_between_checkpoints, "", "integer > 0", read, write,
+                "after which `lab --resume` can take up a test"),
+    entry::choice(
+      "Shared body", &Input::shared_body,
+      {{"by size", SharedBody::by_size}, {"always", SharedBody::always}, {"never", SharedBody::never}},
+      "whether the processes of mpirun compute each specimen together, with the same results, or each makes tests of its own; "
+      "by size: specimens of 100 000 grains and more together")};
 }
 
 std::vector<Entry<TestParameters>> tests_text_entries()
@@ -216,14 +209,14 @@ std::string varied_entry(const std::string_view text)
   std::vector<std::string> names;      // of all that can vary
   std::vector<std::string> with_entry; // of these, with this entry
   for (const Parameter& parameter : parameter_table())
-    if (parameter.name() == text && !parameter.flags.varies)
-      throw InputError("is one for all variants; it cannot vary");
-    else if (parameter.flags.varies)
+    if (parameter.flags.varies)
       {
         names.push_back(parameter.name());
         if (parameter.entry == text)
           with_entry.push_back(parameter.name());
       }
+    else if (parameter.name() == text)
+      throw InputError("is one for all variants; it cannot vary");
   if (contains(names, text))
     return std::string(text);
   if (!with_entry.empty())
@@ -237,7 +230,7 @@ std::vector<Entry<VariantParameters>> variant_entries()
 {
   using P = VariantParameters;
   const auto write_entries = [](const std::vector<std::string>& entries) {
-    return entries.empty() ? std::string(none) : fmt::format("{}", fmt::join(entries, "; "));
+    return or_none(fmt::format("{}", fmt::join(entries, "; ")));
   };
   return {
     entry::text("Entry", &P::entries, "", "none, or Section/Entry, several separated by semicolons",
@@ -255,12 +248,11 @@ std::vector<Entry<VariantParameters>> variant_entries()
                 "for each variant")};
 }
 
-Entry<Input> seeds_entry()
+std::vector<Entry<Input>> seeds_entries()
 {
-  return entry::text("Seeds", &Input::seeds, "", "non-negative integers and ranges, such as 1, 5..7, 10..20 step 5",
-                     read_seeds,
-                     [](const std::vector<std::uint64_t>& seeds) { return fmt::format("{}", fmt::join(seeds, ", ")); },
-                     "one specimen for each seed", {.basic = true});
+  const auto write = [](const std::vector<std::uint64_t>& seeds) { return fmt::format("{}", fmt::join(seeds, ", ")); };
+  return {entry::text("Seeds", &Input::seeds, "", "non-negative integers and ranges, such as 1, 5..7, 10..20 step 5",
+                      read_seeds, write, "one specimen for each seed", {.basic = true})};
 }
 
 std::vector<Entry<ContactParameters>> contact_entries()
@@ -272,11 +264,11 @@ std::vector<Entry<ContactParameters>> contact_entries()
                           "of grain 2 of `feldspar contact`")};
 }
 
-Entry<ContactParameters> contact_path_entry()
+std::vector<Entry<ContactParameters>> contact_path_entries()
 {
-  return entry::file("File", &ContactParameters::path_file,
-                     "displacements since rest, a CSV with the columns normal_m,shear_m,rotation_rad; in three "
-                     "dimensions normal_m,shear_1_m,shear_2_m,twist_rad,bend_1_rad,bend_2_rad");
+  return {entry::file("File", &ContactParameters::path_file,
+                      "displacements since rest, a CSV with the columns normal_m,shear_m,rotation_rad; in three "
+                      "dimensions normal_m,shear_1_m,shear_2_m,twist_rad,bend_1_rad,bend_2_rad")};
 }
 
 std::vector<Entry<StrainPathParameters>> strain_path_entries()
@@ -323,9 +315,8 @@ std::vector<Entry<ReportLabels>> label_entries()
       throw InputError("{} is no line of UTF-8 text without control characters", in_quotes(text));
     return std::string(text == none ? "" : text);
   };
-  const auto write = [](const std::string& text) { return text.empty() ? std::string(none) : text; };
   const auto label = [&](const std::string_view name, std::string L::*const member, const std::string_view meaning) {
-    return entry::text(name, member, "", "none, or a text", read, write, meaning);
+    return entry::text(name, member, "", "none, or a text", read, or_none, meaning);
   };
   return {
     label("Title", &L::title, "heading of the report; names the run in tables and keys, instead of its folder"),

@@ -34,7 +34,6 @@ std::optional<std::string> prm_text(const Json& value)
     }
   return fmt::format("{}", fmt::join(items, ", "));
 }
-
 } // namespace
 
 std::vector<GivenEntry> scan_json(const std::string& file, const std::string& text)
@@ -50,12 +49,13 @@ std::vector<GivenEntry> scan_json(const std::string& file, const std::string& te
         throw InputError(R"({}: {}: must be an object of entries, {{"Entry": "value"}})", file, section);
       for (const auto& [entry, value] : entries.items())
         {
-          check_name({section, entry, "", file});
+          const std::string name = section + "/" + entry;
+          check_name({name, "", file});
           const std::optional<std::string> value_text = prm_text(value);
           if (!value_text)
-            throw InputError("{}: {}/{}: found {}; must be a string, a number, a list of them or null", file, section,
-                             entry, value.type_name());
-          given.push_back({section, entry, *value_text, file});
+            throw InputError("{}: {}: found {}; must be a string, a number, a list of them or null", file, name,
+                             value.type_name());
+          given.push_back({name, *value_text, file});
         }
     }
   return given;

@@ -23,9 +23,7 @@ Entry<Input> file_entry(const std::string_view name, std::string MineralParamete
                                input.minerals.*content =
                                  (input.minerals.*path).empty() ? T() : read(input.minerals.*path);
                              },
-                             [=](const Input& input) {
-                               return (input.minerals.*path).empty() ? std::string(none) : input.minerals.*path;
-                             }},
+                             [=](const Input& input) { return or_none(input.minerals.*path); }},
           meaning, flags, id_of_member(path)};
 }
 } // namespace

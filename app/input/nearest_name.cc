@@ -34,8 +34,7 @@ std::size_t edit_distance(const std::string_view a, const std::string_view b)
 std::string nearest_name(const std::string_view text, const std::vector<std::string_view>& names)
 {
   const std::string_view found = text.substr(0, 100); // no name is longer, and the effort grows with it
-  const auto nearest = std::ranges::min_element(
-    names, [&](const auto a, const auto b) { return edit_distance(found, a) < edit_distance(found, b); });
+  const auto nearest = std::ranges::min_element(names, {}, [&](const auto name) { return edit_distance(found, name); });
   const std::size_t distance = edit_distance(found, *nearest);
   if (2 * distance > nearest->size())
     return "";

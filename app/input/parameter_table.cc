@@ -1,10 +1,10 @@
 #include "app/input/parameter_table.h"
 
 #include "app/input/entry_parameter.h"
-#include "app/input/flaw_entries.h"
 #include "app/input/input_entries.h"
 #include "app/input/joint_sections.h"
 #include "base/contains.h"
+#include "base/input_error.h"
 #include "base/parameter_id.h"
 #include "calibration/entries.h"
 #include "coupling/rve/entries.h"
@@ -21,6 +21,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
+#include <span>
 #include <utility>
 
 namespace feldspar
@@ -34,15 +36,15 @@ std::vector<Parameter> make_parameter_table()
     for (const Entry<Input>& one : entries)
       table.push_back(parameter_of(section, one));
   };
-  const auto add = [&]<typename P>(const std::string_view section, P Input::*const part,
+  const auto add = [&]<typename P>(const std::string_view section, const auto part,
                                    const std::vector<Entry<P>>& entries) {
     for (const Entry<P>& one : entries)
-      table.push_back(parameter_of(section, within<Input>(
-                                              one, [part](const Input& input) -> const P& { return input.*part; },
-                                              [part](Input& input) -> P& { return input.*part; })));
+      add_own(section, {within<Input>(
+                         one, [part](const Input& input) -> const P& { return std::invoke(part, input); },
+                         [part](Input& input) -> P& { return std::invoke(part, input); })});
   };
   add("Specimen", &Input::specimen, specimen_entries());
-  add("Specimen", &Input::specimen, std::vector{sieve_curve_entry()});
+  add("Specimen", &Input::specimen, sieve_curve_entries());
   add("Flat joint", &Input::flat_joint, flat_joint_entries());
   add("Softening flat joint", &Input::softening_flat_joint, softening_flat_joint_entries());
   add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
@@ -53,25 +55,23 @@ std::vector<Parameter> make_parameter_table()
   add("Mineral grains", &Input::mineral_grains, mineral_grain_entries());
   add("Clumps", &Input::clumps, clump_entries());
   add_own("Flaws", flaw_entries());
-  for (const Entry<MapParameters>& one : map_entries())
-    add_own("Flaws", {within<Input>(
-                       one, [](const Input& input) -> const MapParameters& { return input.flaws.map; },
-                       [](Input& input) -> MapParameters& { return input.flaws.map; })});
+  add(
+    "Flaws", [](auto& input) -> auto& { return input.flaws.map; }, map_entries());
   add("Dynamics", &Input::dynamics, dynamics_entries());
   add_own("Tests", test_list_entries());
   add("Tests", &Input::tests, test_entries());
   add("Tests", &Input::tests, tests_text_entries());
-  add_own("Tests", {checkpoint_entry(), shared_body_entry()});
+  add_own("Tests", progress_entries());
   add("Emission", &Input::tests, emission_entries());
   add("Variants", &Input::variants, variant_entries());
-  add_own("Seeds", {seeds_entry()});
+  add_own("Seeds", seeds_entries());
   add("Contact", &Input::contact, contact_entries());
-  add("Contact path", &Input::contact, std::vector{contact_path_entry()});
+  add("Contact path", &Input::contact, contact_path_entries());
   add("Strain path", &Input::strain_path, strain_path_entries());
   add("Representative volume", &Input::equilibrium, equilibrium_entries());
   add("Representative volume", &Input::boundary, boundary_entries());
   add("Sample", &Input::sample, sample_entries());
-  add("Sample", &Input::sample, std::vector{mesh_names_entry()});
+  add("Sample", &Input::sample, mesh_names_entries());
   add("Continuum", &Input::continuum, continuum_entries());
   add("Calibration", &Input::calibration, calibration_list_entries());
   add("Calibration", &Input::calibration, calibration_entries());
@@ -98,6 +98,8 @@ std::string command_of(const Work work)
 [[maybe_unused]] const bool speaks_of_entries = (use_words_of_input({place_of, command_of}), true);
 } // namespace
 
+std::string or_none(std::string text) { return text.empty() ? std::string(none) : text; }
+
 InputPlace place_of(const ParameterId& id)
 {
   for (const auto& [known, place] : further_places())
@@ -121,9 +123,8 @@ std::string Parameter::described() const
 {
   std::string text(meaning);
   for (std::size_t k = 0; k < flags.demands.size(); ++k)
-    if (const Demand& one = flags.demands[k];
-        std::none_of(flags.demands.begin() + std::ptrdiff_t(k) + 1, flags.demands.end(),
-                     [&](const Demand& stricter) { return stricter.other == one.other; }))
+    if (const Demand& one = flags.demands[k]; // of several on one entry the last is the strictest
+        !contains(std::span(flags.demands).subspan(k + 1), one.other, &Demand::other))
       text += fmt::format("; {}{}{} {}{}{}", one.of_value, one.of_value.empty() ? "" : " ",
                           one.allowed.empty() ? "excludes" : "needs", one.other, one.allowed.empty() ? "" : " = ",
                           fmt::join(one.allowed, " or "));
@@ -154,18 +155,14 @@ std::vector<std::string_view> entry_names(const std::string_view section)
   return names;
 }
 
-const Parameter* find_parameter(const std::string_view section, const std::string_view entry)
+const Parameter* find_parameter(const std::string_view name)
 {
+  const std::size_t slash = std::min(name.find('/'), name.size());
+  const std::string_view section = name.substr(0, slash), entry = name.substr(std::min(slash + 1, name.size()));
   for (const Parameter& parameter : parameter_table())
     if (parameter.section == section && parameter.entry == entry)
       return &parameter;
   return nullptr;
-}
-
-const Parameter* find_parameter(const std::string_view name)
-{
-  const std::size_t slash = std::min(name.find('/'), name.size());
-  return find_parameter(name.substr(0, slash), name.substr(std::min(slash + 1, name.size())));
 }
 
 const Demand* unmet_demand(const Input& input, const Parameter& parameter)
@@ -205,6 +202,17 @@ bool has_use_for(const Input& input, const Parameter& parameter)
   return std::ranges::none_of(laws, [&](const std::string_view law) {
     return parameter.section == section_of(law) && law != input.specimen.joint_law;
   });
+}
+
+std::vector<std::string> sentences_on(const std::vector<Variant>& variants,
+                                      std::string (*const sentence_on)(const Input&, const Parameter&))
+{
+  std::vector<std::string> sentences;
+  for (const Variant& variant : variants)
+    for (const Parameter& parameter : parameter_table())
+      if (const std::string one = sentence_on(variant.input, parameter); !one.empty() && !contains(sentences, one))
+        sentences.push_back(one);
+  return sentences;
 }
 
 void check_body(const Input& input, const Body body)

@@ -33,6 +33,9 @@ inline constexpr std::string_view none = "none";
 /// The range of every entry that names a file.
 inline constexpr std::string_view none_or_a_file = "none, or a file";
 
+/// The text, or `none` in place of an empty one.
+std::string or_none(std::string text);
+
 /// Every parameter, in the order of the reference. Reading, checking and the reference walk this.
 const std::vector<Parameter>& parameter_table();
 
@@ -42,8 +45,7 @@ std::vector<std::string_view> section_names();
 /// The entries of a section in the order of the table; none if there is no such section.
 std::vector<std::string_view> entry_names(std::string_view section);
 
-/// Parameter of a section and its entry, or of both in one, "Section/Entry"; null if there is none of that name.
-const Parameter* find_parameter(std::string_view section, std::string_view entry);
+/// Parameter by its name, "Section/Entry"; null if there is none of that name.
 const Parameter* find_parameter(std::string_view name);
 
 /// Returns whether a flaw or mineral grains put smooth joints into the rock.
@@ -57,6 +59,10 @@ const Demand* unmet_demand(const Input& input, const Parameter& parameter);
 
 /// Section and entry of a parameter that a library names; of one that the input does not have its name in the code.
 InputPlace place_of(const ParameterId& id);
+
+/// Sentences on the entries of all variants, each once.
+std::vector<std::string> sentences_on(const std::vector<Variant>& variants,
+                                      std::string (*sentence_on)(const Input&, const Parameter&));
 
 /// Refuses entries that have no use on this body, unless they keep their defaults. Throws InputError.
 void check_body(const Input& input, Body body);

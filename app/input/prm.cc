@@ -21,21 +21,20 @@ std::optional<std::string> after(const std::string_view small, const std::string
     return std::nullopt;
   return std::string(trim(line.substr(small.size())));
 }
+} // namespace
 
-/// Splits "NAME = VALUE".
 GivenEntry entry_of(const std::string& section, const std::string& setting, const std::string& place)
 {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos)
     throw InputError("{}: {}: has no value; write \"set NAME = VALUE\"", place, in_quotes("set " + setting));
-  const std::string_view all = setting;
-  GivenEntry given{section, std::string(trim(all.substr(0, equals))), std::string(trim(all.substr(equals + 1))), place};
+  const std::string_view all = setting, entry = trim(all.substr(0, equals));
   if (section.empty())
-    throw InputError("{}: {}: stands outside of any subsection", place, excerpt(given.entry));
+    throw InputError("{}: {}: stands outside of any subsection", place, excerpt(entry));
+  GivenEntry given{fmt::format("{}/{}", section, entry), std::string(trim(all.substr(equals + 1))), place};
   check_name(given);
   return given;
 }
-} // namespace
 
 // The format of deal.II's ParameterHandler, whose duplicates and unclosed subsections are mistakes here.
 std::vector<GivenEntry> scan_prm(const std::string& file, const std::string& text)
@@ -73,9 +72,8 @@ std::vector<GivenEntry> scan_prm(const std::string& file, const std::string& tex
     else if (const auto setting = after("set ", "SET ", words))
       {
         const GivenEntry given = entry_of(section, *setting, place);
-        for (const GivenEntry& earlier : entries)
-          if (earlier.section == section && earlier.entry == given.entry)
-            refuse(section + "/" + given.entry, "is given twice, first in " + earlier.place);
+        if (const auto earlier = std::ranges::find(entries, given.name, &GivenEntry::name); earlier != entries.end())
+          refuse(given.name, "is given twice, first in " + earlier->place);
         entries.push_back(given);
       }
     else if (after("include ", "INCLUDE ", words))

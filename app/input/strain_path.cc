@@ -18,22 +18,13 @@ constexpr double engineering(const int k)
   return k < dim ? 1.0 : 2.0; // γ = 2ε
 }
 
-/// -p on the normal components, 0 on those of shear.
-template <int dim>
-Voigt<dim> pressure(const double p)
-{
-  Voigt<dim> stress = Voigt<dim>::Zero();
-  stress.template head<dim>().setConstant(-p);
-  return stress;
-}
-
 template <int dim>
 std::vector<PathLeg<dim>> legs_along_direction(const StrainPathParameters& path)
 {
   std::vector<PathLeg<dim>> legs;
   Control<dim> confinement;
   confinement.stress_given.fill(true);
-  confinement.stress = pressure<dim>(path.confining_pressure);
+  confinement.stress.template head<dim>().setConstant(-path.confining_pressure); // the normal components
   if (path.confining_pressure > 0.0)
     legs.push_back({confinement, false});
   Control<dim> straining = confinement;

@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -27,13 +28,11 @@ namespace
 {
 constexpr std::size_t most_variants = 10000;
 
-const Parameter& parameter_named(const std::string& name) { return *find_parameter(name); }
-
 /// Gives an entry its value; returns how an input file would say it. There are two ways to say which pairs of grains
 /// get a joint; the varied one holds.
 VariantSetting set(Input& input, const std::string& entry, const std::string& value)
 {
-  const Parameter& parameter = parameter_named(entry);
+  const Parameter& parameter = *find_parameter(entry);
   rephrased([&] { parameter.read(input, value); },
             [&](const std::string& what) { return InputError("{} = {}: {}", entry, excerpt(value), what); });
   for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
@@ -69,8 +68,7 @@ void check_fit(const VariantParameters& wanted)
     return;
   for (std::size_t k = 0; k < wanted.entries.size(); ++k)
     {
-      if (std::find(wanted.entries.begin(), wanted.entries.begin() + std::ptrdiff_t(k), wanted.entries[k]) !=
-          wanted.entries.begin() + std::ptrdiff_t(k))
+      if (contains(std::span(wanted.entries).first(k), wanted.entries[k]))
         throw InputError("{} is named twice", wanted.entries[k]);
       if (wanted.in_step && wanted.values[k].size() != wanted.values.front().size())
         throw InputError("{} has {} values and {} has {}; in step they need as many", wanted.entries.front(),
@@ -188,7 +186,7 @@ std::vector<Variant> rocks_of_sample(const Input& input)
     return {{"", input}};
   constexpr std::array common{"Specimen/Dimension", "Specimen/Shape", "Specimen/Width", "Specimen/Height"};
   for (const std::string& entry : input.rocks.entries)
-    if (!parameter_named(entry).flags.of_specimen || contains(common, entry))
+    if (!find_parameter(entry)->flags.of_specimen || contains(common, entry))
       throw InputError("{}: {} is one for all rocks of a sample", input.rocks.table, entry);
   Input of_rocks = input;
   of_rocks.variants = input.rocks;
@@ -197,8 +195,7 @@ std::vector<Variant> rocks_of_sample(const Input& input)
     {
       rocks[k].label = input.rocks.labels[k];
       rocks[k].name_in_files = fmt::format("rock_{}", k + 2);
-      if (const auto before = input.rocks.labels.begin() + std::ptrdiff_t(k);
-          rocks[k].label.empty() || std::find(input.rocks.labels.begin(), before, rocks[k].label) != before)
+      if (rocks[k].label.empty() || contains(std::span(input.rocks.labels).first(k), rocks[k].label))
         throw InputError("{}: each row needs a group of its own; row {} has {}", input.rocks.table, k + 1,
                          in_quotes(rocks[k].label));
     }

@@ -1,4 +1,4 @@
-#include "app/processes/finite_elements.h"
+#include "app/processes/mpi_session.h"
 
 #include <deal.II/base/mpi.h>
 

@@ -14,7 +14,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <optional>
 #include <thread>
 
 namespace feldspar
@@ -40,27 +39,6 @@ struct OfThisMachine
   ~OfThisMachine() { MPI_Comm_free(&communicator); }
 
   MPI_Comm communicator = MPI_COMM_NULL;
-};
-
-/// MPI without finite elements.
-class MpiAlone
-{
-public:
-  MpiAlone()
-  {
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-    int n = 1;
-    MPI_Comm_size(OfThisMachine().communicator, &n);
-    share_of_cores.emplace(tbb::global_control::max_allowed_parallelism,
-                           std::size_t(std::max(1, tbb::info::default_concurrency() / n)));
-  }
-  MpiAlone(const MpiAlone&) = delete;
-  MpiAlone& operator=(const MpiAlone&) = delete;
-  ~MpiAlone() { MPI_Finalize(); }
-
-private:
-  std::optional<tbb::global_control> share_of_cores;
 };
 
 /// Returns whether every rank calls this within some seconds. The communicator is of no other use: others may be waiting in
@@ -115,7 +93,19 @@ int guarded(const std::function<int()>& program)
 }
 } // namespace
 
-MpiSession mpi_alone() { return std::make_shared<MpiAlone>(); }
+MpiSession mpi_alone()
+{
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+  int n = 1;
+  MPI_Comm_size(OfThisMachine().communicator, &n);
+  auto share_of_cores = std::make_unique<tbb::global_control>(
+    tbb::global_control::max_allowed_parallelism, std::size_t(std::max(1, tbb::info::default_concurrency() / n)));
+  return {share_of_cores.release(), [](tbb::global_control* const share) {
+            MPI_Finalize();
+            delete share;
+          }};
+}
 
 int with_mpi(const std::function<int()>& program, MpiSession (*const bring_up)())
 {

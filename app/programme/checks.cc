@@ -6,7 +6,6 @@
 #include "base/contains.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/protocols/tilt.h"
 #include "dem/lab/surroundings.h"
 #include "dem/laws/joint_laws.h"
 #include "laboratory/compression.h"
@@ -15,7 +14,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 namespace feldspar
 {
@@ -41,11 +39,38 @@ void check_loads(const Input& input, const Body body)
                      "rate in mm/min, or set Machine stiffness = none",
                      own.loading_rate->text);
 }
+
+/// A sentence on an entry of section Tests that is set and is of none of the tests; empty for any other.
+std::string entry_without_effect(const Input& input, const Parameter& parameter)
+{
+  if (parameter.section != "Tests" || parameter.write(input) == parameter.default_text())
+    return "";
+  std::vector<TestKind> takers = kinds_that_take(parameter.entry);
+  if (parameter.entry == "Confinements")
+    std::ranges::copy_if(test_kinds(), std::back_inserter(takers), &TestKind::takes_confining_pressure);
+  if (takers.empty() || std::ranges::any_of(takers, [&](const TestKind& kind) { return lists(input, kind); }))
+    return "";
+  return fmt::format("{} has no effect: it is of {}, and Tests/List has {}", parameter.name(), names(takers),
+                     names(input.test_list));
+}
 } // namespace
 
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check)
 {
   rephrased(check, [&](const std::string& what) { return InputError("{}: {}", input_file.string(), what); });
+}
+
+std::string refusal_of(const std::function<void()>& work)
+{
+  try
+    {
+      work();
+      return "";
+    }
+  catch (const InputError& error)
+    {
+      return error.what();
+    }
 }
 
 std::optional<Reference> reference_of(const Input& input)
@@ -69,9 +94,10 @@ void check_boundary(const Input& input)
 
 void check_no_groups(const Input& input)
 {
-  for (const auto& [section, entry] : {std::pair("Clumps", "Diameter"), std::pair("Mineral grains", "Mean size")})
-    if (const std::string value = find_parameter(section, entry)->write(input); value != none)
-      throw InputError("{}/{} = {}: a representative volume takes none; set {} = none", section, entry, value, entry);
+  for (const char* const name : {"Clumps/Diameter", "Mineral grains/Mean size"})
+    if (const Parameter& group = *find_parameter(name); group.write(input) != none)
+      throw InputError("{} = {}: a representative volume takes none; set {} = none", name, group.write(input),
+                       group.entry);
   if (input.minerals.form_of_rock() != MineralGrainForm::breakable)
     throw InputError("Minerals/Grains = {}: a representative volume takes breakable ones; set Grains = breakable",
                      find_parameter("Minerals/Grains")->write(input));
@@ -79,24 +105,7 @@ void check_no_groups(const Input& input)
 
 std::vector<std::string> entries_without_effect(const std::vector<Variant>& variants)
 {
-  std::vector<std::string> sentences;
-  for (const Variant& variant : variants)
-    for (const Parameter& parameter : parameter_table())
-      {
-        if (parameter.section != "Tests" || parameter.write(variant.input) == parameter.default_text())
-          continue;
-        std::vector<TestKind> takers = kinds_that_take(parameter.entry);
-        if (parameter.entry == "Confinements")
-          std::ranges::copy_if(test_kinds(), std::back_inserter(takers), &TestKind::takes_confining_pressure);
-        if (takers.empty() ||
-            std::ranges::any_of(takers, [&](const TestKind& kind) { return lists(variant.input, kind); }))
-          continue;
-        const std::string sentence = fmt::format("{} has no effect: it is of {}, and Tests/List has {}",
-                                                 parameter.name(), names(takers), names(variant.input.test_list));
-        if (!contains(sentences, sentence))
-          sentences.push_back(sentence);
-      }
-  return sentences;
+  return sentences_on(variants, entry_without_effect);
 }
 
 void check_on_body(const Input& input, const Body body)
@@ -129,20 +138,18 @@ void check_specimen_and_tests(const Input& input)
                        *intermediate_stress / 1e6, confinement / 1e6);
 }
 
-template <int dim>
-void check_specimen_of_file(const Input& input, const Specimen<dim>& specimen)
+void check_specimen_of_file(const Input& input, const BodyShape shape)
 {
-  if (specimen.is_periodic())
+  if (is_periodic(shape))
     throw InputError(
       "Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen between walls (feldspar rve "
       "takes a cell)");
-  check_on_body(input, body_of(dim, specimen.shape));
+  check_on_body(input, body_of(input.specimen.dimension, shape));
 }
 
-template <int dim>
-void check_cell(const Specimen<dim>& specimen, const std::string_view needed_by)
+void check_cell(const BodyShape shape, const std::string_view needed_by)
 {
-  if (!specimen.is_periodic())
+  if (!is_periodic(shape))
     throw InputError("Specimen/Specimen file: is a specimen between walls; {} needs a periodic cell (feldspar lab "
                      "takes walls)",
                      needed_by);
@@ -205,9 +212,4 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
     else
       path_legs<3>(variant.input.strain_path);
 }
-
-template void check_specimen_of_file<2>(const Input&, const Specimen<2>&);
-template void check_specimen_of_file<3>(const Input&, const Specimen<3>&);
-template void check_cell<2>(const Specimen<2>&, std::string_view);
-template void check_cell<3>(const Specimen<3>&, std::string_view);
 } // namespace feldspar

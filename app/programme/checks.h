@@ -2,7 +2,6 @@
 
 #include "app/input/input.h"
 #include "base/body.h"
-#include "dem/specimen/specimen.h"
 #include "results/folder/reference.h"
 
 #include <filesystem>
@@ -18,6 +17,9 @@ namespace feldspar
 {
 /// Runs a check, and puts the name of the input in front of what it refuses.
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check);
+
+/// Does some work. Returns what it refuses by InputError; empty: nothing.
+std::string refusal_of(const std::function<void()>& work);
 
 /// The reference of an input, if it names one; a file that does not serve is reported by its own name.
 std::optional<Reference> reference_of(const Input& input);
@@ -42,12 +44,10 @@ void check_on_body(const Input& input, Body body);
 void check_specimen_and_tests(const Input& input);
 
 /// A specimen out of a file, which brought its own shape, for `feldspar lab`.
-template <int dim>
-void check_specimen_of_file(const Input& input, const Specimen<dim>& specimen);
+void check_specimen_of_file(const Input& input, BodyShape shape);
 
 /// A specimen as the representative volume of `needed_by`: a cell that repeats itself.
-template <int dim>
-void check_cell(const Specimen<dim>& specimen, std::string_view needed_by);
+void check_cell(BodyShape shape, std::string_view needed_by);
 
 /// Refuses what an RVE cannot take that stands where it stood in its sample.
 void check_rve_out_of_sample(const Input& input);

@@ -1,5 +1,6 @@
 #include "app/programme/genesis_effort.h"
 
+#include "app/programme/checks.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
 #include "base/readable_file.h"
@@ -44,13 +45,7 @@ double n_grains_in(const std::string& file)
   const std::lock_guard lock(one_at_a_time);
   const auto [place, is_new] = known.try_emplace(file, 0.0);
   if (is_new)
-    try
-      {
-        place->second = double(head_of_specimen(file).n_grains);
-      }
-    catch (const InputError&)
-      {
-      }
+    refusal_of([&, &place = place] { place->second = double(head_of_specimen(file).n_grains); });
   return place->second;
 }
 } // namespace

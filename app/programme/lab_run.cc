@@ -11,6 +11,7 @@
 #include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
+#include "runs/share_out.h"
 #include "runs/shared_tests.h"
 
 #include <fmt/format.h>
@@ -21,36 +22,34 @@ namespace feldspar
 {
 LaboratoryOrder laboratory_order(const TestCase& test, const Input& input, const std::string& name)
 {
-  LaboratoryOrder order{test, &input.tests, &input.dynamics};
-  order.name = name;
-  order.identity = run_identity(input, name);
-  order.steps_between_checkpoints = input.steps_between_checkpoints;
-  return order;
+  return {.test = test,
+          .parameters = &input.tests,
+          .dynamics = &input.dynamics,
+          .name = name,
+          .identity = run_identity(input, name),
+          .steps_between_checkpoints = input.steps_between_checkpoints};
 }
 
 std::vector<LaboratoryOrder> plan_tests(const RunPlan& plan, const std::vector<SpecimenSize>& specimens)
 {
   std::vector<LaboratoryOrder> planned;
-  const auto add_tests = [&](const std::size_t v, const std::size_t s) {
-    const Variant& variant = plan.variants[v];
-    const std::uint64_t seed = specimens[s].n_grains > 0 ? specimens[s].seed : plan.orders[s].seed;
-    for (const TestCase& test : test_cases(variant.input.test_list, variant.input.confinements))
-      {
-        const std::string& own = variant.name_in_files;
-        const std::string group = own.empty() ? name(test) : fmt::format("{}_{}", name(test), own);
-        LaboratoryOrder& order =
-          planned.emplace_back(laboratory_order(test, variant.input, fmt::format("{}_seed_{}", group, seed)));
-        order.specimen = s;
-        order.variant = v;
-        order.group = group;
-        order.label = variant.label;
-        order.settings = variant.settings;
-      }
-  };
-  for (std::size_t v = 0; v < plan.variants.size(); ++v)
-    for (std::size_t s = 0; s < plan.orders.size(); ++s)
-      if (std::ranges::count(plan.orders[s].variants, v) > 0)
-        add_tests(v, s);
+  for (const auto& [v, s] : plan.parts())
+    {
+      const Variant& variant = plan.variants[v];
+      const std::uint64_t seed = specimens[s].n_grains > 0 ? specimens[s].seed : plan.orders[s].seed;
+      for (const TestCase& test : test_cases(variant.input.test_list, variant.input.confinements))
+        {
+          const std::string& own = variant.name_in_files;
+          const std::string group = own.empty() ? name(test) : fmt::format("{}_{}", name(test), own);
+          LaboratoryOrder& order =
+            planned.emplace_back(laboratory_order(test, variant.input, fmt::format("{}_seed_{}", group, seed)));
+          order.specimen = s;
+          order.variant = v;
+          order.group = group;
+          order.label = variant.label;
+          order.settings = variant.settings;
+        }
+    }
   return planned;
 }
 
@@ -108,21 +107,13 @@ void run_together(const RunPlan& plan, const std::filesystem::path& folder, Prog
 {
   std::vector<SpecimenSize> sizes;
   std::string effort;
-  bool was_interrupted = false;
-  ranks::first([&] {
-    try
-      {
-        const auto specimens = provide_specimens<dim>(plan, folder, progress);
-        sizes = sizes_of(specimens);
-        effort = describe_shared_effort<dim>(plan_tests(plan, sizes), plan.variants, specimens);
-      }
-    catch (const Interrupted&)
-      {
-        was_interrupted = true;
-      }
+  together_or_interrupted([&] {
+    if (!ranks::is_first())
+      return;
+    const auto specimens = provide_specimens<dim>(plan, folder, progress);
+    sizes = sizes_of(specimens);
+    effort = describe_shared_effort<dim>(plan_tests(plan, sizes), plan.variants, specimens);
   });
-  if (ranks::any(was_interrupted))
-    throw Interrupted();
   progress.remark(effort);
   sizes = values_of<SpecimenSize>(ranks::of_first(bytes_of(sizes)));
   const auto tests = plan_tests(plan, sizes);

@@ -53,7 +53,7 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
       auto specimens = provide_specimens<dim>(plan, of_rves, progress);
       for (std::size_t k = 0; k < specimens.size(); ++k)
         {
-          with_name_of(input_file, [&] { check_cell(specimens[k], "the RVE at a point"); });
+          with_name_of(input_file, [&] { check_cell(specimens[k].shape, "the RVE at a point"); });
           auto& packings = std::get<Packings<dim>>(rocks[k / input.sample.n_realisations].packings);
           packings.realisations.push_back(realisation(specimens[k], input.boundary));
           packings.realisations.back().rock = of_cells.label;
@@ -75,19 +75,7 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
       }
   return rocks;
 }
-} // namespace
 
-std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
-                             const std::filesystem::path& folder, Progress& progress)
-{
-  if (!input.sample.has_grains())
-    return {{input.seeds.front(), {}}}; // no seed makes a difference
-  return input.specimen.dimension == 2 ? make_rocks<2>(input, input_file, folder, progress)
-                                       : make_rocks<3>(input, input_file, folder, progress);
-}
-
-namespace
-{
 /// An RVE withstands any pressure, even one that presses its grains into each other so far that the result means
 /// nothing.
 template <int dim>
@@ -102,6 +90,15 @@ void check_confinement(const double pressure, const char* const entry, const Net
                      entry, pressure / 1e6, 100.0 * size, 100.0 * largest, pressure * largest / size / 1e6);
 }
 } // namespace
+
+std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
+                             const std::filesystem::path& folder, Progress& progress)
+{
+  if (!input.sample.has_grains())
+    return {{input.seeds.front(), {}}}; // no seed makes a difference
+  return input.specimen.dimension == 2 ? make_rocks<2>(input, input_file, folder, progress)
+                                       : make_rocks<3>(input, input_file, folder, progress);
+}
 
 SampleSettings sample_settings(const Input& input)
 {

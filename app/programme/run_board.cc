@@ -58,8 +58,6 @@ void RunBoard::cannot_be_made(const std::size_t part, const std::string& reason)
     progress.remark(fmt::format("{} cannot be made: {}", entries[part].part.name, reason));
 }
 
-void RunBoard::goes_back(const std::string& sentence) { say(sentence); }
-
 void RunBoard::taken_up(const std::size_t part)
 {
   {
@@ -69,7 +67,7 @@ void RunBoard::taken_up(const std::size_t part)
   ended(part);
 }
 
-void RunBoard::say(const std::string& sentence)
+void RunBoard::goes_back(const std::string& sentence)
 {
   const std::lock_guard lock(showing);
   progress.note(sentence);

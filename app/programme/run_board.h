@@ -51,8 +51,6 @@ public:
 
   /// A part that an earlier run has made is no work of this one.
   void taken_up(std::size_t part);
-  /// A sentence that stays.
-  void say(const std::string& sentence);
 
 private:
   struct Entry

@@ -1,18 +1,18 @@
 #include "app/programme/run_report.h"
 
+#include "app/programme/checks.h"
 #include "app/run/interrupt.h"
 #include "app/screen/print_result.h"
 #include "base/append.h"
-#include "base/input_error.h"
 #include "base/readable_file.h"
 #include "base/text.h"
 #include "base/whole_file.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/report.h"
 #include "report/sections/comparison.h"
-#include "report/sections/test_tables.h"
+#include "report/sections/tables.h"
 #include "report/sections/verdict.h"
-#include "results/fits/strength_data.h"
+#include "results/fits/run_envelopes.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/csv_tables.h"
 #include "results/folder/field_output.h"
@@ -37,16 +37,9 @@ std::vector<std::string> report_on(const ReportOrder& order, Progress& progress,
       if (!reference && std::filesystem::exists(folder / result_file::reference))
         reference = folder / result_file::reference;
     }
-  std::string calibration_problem;
+  std::string calibration_problem; // the tests are there none the less
   if (input.one_folder)
-    try
-      {
-        input.calibration = read_calibration(order.result_folders.front());
-      }
-    catch (const InputError& error)
-      {
-        calibration_problem = error.what(); // the tests are there none the less
-      }
+    calibration_problem = refusal_of([&] { input.calibration = read_calibration(order.result_folders.front()); });
   input.catalogues = order.catalogues;
   if (!order.curves.empty())
     input.all.push_back(read_laboratory_curves(order.curves));
@@ -56,18 +49,9 @@ std::vector<std::string> report_on(const ReportOrder& order, Progress& progress,
       input.envelopes.push_back(fitted != order.envelopes.end() ? fitted->second
                                                                 : fit_strength_envelopes(strength_data(series.tests)));
     }
-  if (reference)
-    try
-      {
-        input.reference = read_reference(*reference, test_kinds());
-      }
-    catch (const InputError& error)
-      {
-        input.reference_problem = error.what();
-      }
-  else
-    input.reference_problem =
-      "there is no reference file; name one by Report/Reference file, or by feldspar report --reference";
+  input.reference_problem =
+    reference ? refusal_of([&] { input.reference = read_reference(*reference, test_kinds()); })
+              : "there is no reference file; name one by Report/Reference file, or by feldspar report --reference";
   if (order.quakeml)
     write_quakeml(input.all, *order.quakeml, order.output / result_file::quakeml);
   progress.start("pictures");
@@ -93,18 +77,14 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
       write_fields(test.name, test.record.kind, test.record.cracks, test.record.events, test.appearance,
                    folder / result_file::fields, group_name(test.record));
     else if (std::filesystem::exists(folder / result_file::fields / (test.name + ".xdmf"))) // written step by step
-      try
-        {
-          write_sample_fields(test.name, test.record.kind, test.record.curve, folder / result_file::fields);
-        }
-      catch (const InputError& error)
-        {
-          reported.missing.push_back(error.what());
-        }
+      if (const std::string refusal = refusal_of(
+            [&] { write_sample_fields(test.name, test.record.kind, test.record.curve, folder / result_file::fields); });
+          !refusal.empty())
+        reported.missing.push_back(refusal);
   if (!reference_file.empty())
     write_whole_file(folder / result_file::reference, content_of(reference_file));
   if (!tests.empty())
-    append(reported.missing, report_on({{folder}, {}, {}, folder, reported.envelopes}, progress, EndOfPatience()));
+    append(reported.missing, report_on({{folder}, {}, {}, folder, reported.envelopes}, progress, end_of_patience()));
   return reported;
 }
 
@@ -126,9 +106,8 @@ std::string describe_tests(const std::vector<FinishedTest>& tests, const std::op
 void write_log(const std::filesystem::path& folder, const std::string& text, const bool quiet)
 {
   write_whole_file(folder / "log.txt", text);
-  const auto columns = columns_of_terminal();
   if (!quiet)
-    print_result("\n{}\n", columns ? wrapped(text, *columns) : text);
+    print_result("\n{}\n", for_terminal(text));
   // The last line: for scripts (--quiet) the folder, for the eye the page.
   if (!quiet && std::filesystem::exists(folder / result_file::page))
     print_result("{}\n", (folder / result_file::page).string());

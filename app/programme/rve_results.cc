@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -90,13 +89,8 @@ template <typename Matrix>
 Json rows(const Matrix& matrix)
 {
   Json json = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    {
-      Json row = Json::array();
-      for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-        row.push_back(matrix(i, j));
-      json.push_back(row);
-    }
+  for (const auto& row : matrix.rowwise())
+    json.push_back(std::vector<double>(row.begin(), row.end()));
   return json;
 }
 
@@ -107,14 +101,6 @@ void write_constants(Json& json, const IsotropicConstants& constants)
   json["bulk_modulus_Pa"] = constants.bulk_modulus;
   json["shear_modulus_Pa"] = constants.shear_modulus;
   json["anisotropy"] = constants.anisotropy;
-}
-
-std::array<std::pair<std::string_view, Moduli>, 4> named_bounds(const MixtureBounds& bounds)
-{
-  return {{{"reuss", bounds.reuss},
-           {"hashin_shtrikman_lower", bounds.hashin_shtrikman_lower},
-           {"hashin_shtrikman_upper", bounds.hashin_shtrikman_upper},
-           {"voigt", bounds.voigt}}};
 }
 
 /// Largest of a figure over the samples. Where a path has not set off yet, as in explicit dynamics at a first row of zeros, all
@@ -166,10 +152,13 @@ Json as_json(const FinishedRve<dim>& rve)
       {{"name", mineral.name}, {"colour", colour_text(mineral.colour)}, {"n_grains", n_grains}, {"share", share}});
   json["stiffness_Pa"] = rows(network.intact_stiffness());
   write_constants(json, isotropic_constants<dim>(network.intact_stiffness()));
-  if (rve.mixture)
-    for (const auto& [name, moduli] : named_bounds(*rve.mixture))
-      json["mixture_bounds"][std::string(name)] = {{"bulk_modulus_Pa", moduli.bulk_modulus},
-                                                   {"shear_modulus_Pa", moduli.shear_modulus}};
+  if (const auto& bounds = rve.mixture)
+    for (const auto& [name, moduli] : {std::pair("reuss", bounds->reuss),
+                                       {"hashin_shtrikman_lower", bounds->hashin_shtrikman_lower},
+                                       {"hashin_shtrikman_upper", bounds->hashin_shtrikman_upper},
+                                       {"voigt", bounds->voigt}})
+      json["mixture_bounds"][name] = {{"bulk_modulus_Pa", moduli.bulk_modulus},
+                                      {"shear_modulus_Pa", moduli.shear_modulus}};
   json["stiffness_minimal_kinematic_Pa"] = rows(rve.bounds.minimal_kinematic);
   json["stiffness_affine_Pa"] = rows(rve.bounds.affine);
   json["fabric"] = rows(fabric(network));

@@ -9,6 +9,7 @@
 #include "app/run/interrupt.h"
 #include "base/append.h"
 #include "base/checksum/fingerprint.h"
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "dem/rock/rock.h"
 #include "dem/specimen/specimen_file.h"
@@ -101,14 +102,14 @@ RunPlan::RunPlan(const Input& input)
       }
 }
 
-template <int dim>
-std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::filesystem::path& folder,
-                                             Progress& progress)
+std::vector<std::pair<std::size_t, std::size_t>> RunPlan::parts() const
 {
-  std::set<std::size_t> all;
-  for (std::size_t k = 0; k < plan.orders.size(); ++k)
-    all.insert(k);
-  return provide_specimens<dim>(plan, all, folder, progress);
+  std::vector<std::pair<std::size_t, std::size_t>> all;
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    for (std::size_t s = 0; s < orders.size(); ++s)
+      if (contains(orders[s].variants, v))
+        all.emplace_back(v, s);
+  return all;
 }
 
 template <int dim>
@@ -168,7 +169,7 @@ std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::set
         }
       catch (const InputError& error)
         {
-          board.say(fmt::format("{}; making it anew", error.what()));
+          board.goes_back(fmt::format("{}; making it anew", error.what()));
         }
     specimen = make_rock<dim>(rock_of(input), orders[job].seed, step, end_if_interrupted);
     write_specimen(specimen, file, made_of);
@@ -246,8 +247,6 @@ std::string describe(const std::vector<Flaw<dim>>& flaws)
   return text;
 }
 
-template std::vector<Specimen<2>> provide_specimens<2>(const RunPlan&, const std::filesystem::path&, Progress&);
-template std::vector<Specimen<3>> provide_specimens<3>(const RunPlan&, const std::filesystem::path&, Progress&);
 template void share_out_specimens<2>(const RunPlan&, const std::filesystem::path&, Progress&);
 template void share_out_specimens<3>(const RunPlan&, const std::filesystem::path&, Progress&);
 template std::string describe<2>(const std::vector<Flaw<2>>&);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -29,20 +30,29 @@ struct RunPlan
   /// The input of a specimen.
   const Input& input_of(const SpecimenOrder& order) const { return variants[order.variants.front()].input; }
 
+  /// The variants and the specimens that they test, by their numbers.
+  std::vector<std::pair<std::size_t, std::size_t>> parts() const;
+
   std::vector<Variant> variants;
   std::vector<SpecimenOrder> orders;
 };
 
-/// Provides all specimens, several at a time, and writes each into the folder; one that is there already, from a run
-/// that was broken off, is read. Throws InputError, and Interrupted.
-template <int dim>
-std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::filesystem::path& folder,
-                                             Progress& progress);
-
-/// The same of those with these numbers; the others are empty.
+/// Provides the specimens with these numbers, several at a time, and writes each into the folder; one that is there already, from
+/// a run that was broken off, is read. The others are empty. Throws InputError, and Interrupted.
 template <int dim>
 std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::set<std::size_t>& numbers,
                                              const std::filesystem::path& folder, Progress& progress);
+
+/// The same of all.
+template <int dim>
+std::vector<Specimen<dim>> provide_specimens(const RunPlan& plan, const std::filesystem::path& folder,
+                                             Progress& progress)
+{
+  std::set<std::size_t> all;
+  for (std::size_t k = 0; k < plan.orders.size(); ++k)
+    all.insert(k);
+  return provide_specimens<dim>(plan, all, folder, progress);
+}
 
 /// Each process provides its share of them in the folder. Collective; else as provide_specimens().
 template <int dim>

@@ -1,12 +1,12 @@
 #include "app/programme/usual_ranges.h"
 
 #include "app/input/parameter_table.h"
-#include "base/contains.h"
 #include "base/table/quantity.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 namespace feldspar
@@ -35,35 +35,26 @@ constexpr UsualRange usual_ranges[] = {{"Width", length, 1e-3, 10.0},
                                        {"Intermediate stress", stress, 1e3, 2e9},
                                        {"Confining pressure", stress, 1e3, 2e9}};
 
-void add_unusual(const Input& input, const Parameter& parameter, std::vector<std::string>& sentences)
+/// A sentence on the first value of an entry that is far outside; empty: none.
+std::string unusual_value(const Input& input, const Parameter& parameter)
 {
-  const auto* const usual = std::find_if(std::begin(usual_ranges), std::end(usual_ranges),
-                                         [&](const UsualRange& one) { return one.entry == parameter.entry; });
+  const auto* const usual = std::ranges::find(usual_ranges, parameter.entry, &UsualRange::entry);
   if (usual == std::end(usual_ranges) || !has_use_for(input, parameter))
-    return;
+    return "";
   const std::string text = parameter.write(input);
   if (text == none)
-    return;
+    return "";
   const auto in_its_unit = [&](const double value) { return format_quantity(value, parameter.unit, usual->dimension); };
   for (const double value : parse_quantities(text, usual->dimension))
     if (value != 0.0 && (value < usual->low || value > usual->high))
-      {
-        std::string sentence =
-          fmt::format("{}: {} lies far outside {} to {}, the range of rocks and laboratories; is the unit meant?",
-                      parameter.name(), in_its_unit(value), in_its_unit(usual->low), in_its_unit(usual->high));
-        if (!contains(sentences, sentence))
-          sentences.push_back(std::move(sentence));
-        return;
-      }
+      return fmt::format("{}: {} lies far outside {} to {}, the range of rocks and laboratories; is the unit meant?",
+                         parameter.name(), in_its_unit(value), in_its_unit(usual->low), in_its_unit(usual->high));
+  return "";
 }
 } // namespace
 
 std::vector<std::string> unusual_values(const std::vector<Variant>& variants)
 {
-  std::vector<std::string> sentences;
-  for (const Variant& variant : variants)
-    for (const Parameter& parameter : parameter_table())
-      add_unusual(variant.input, parameter, sentences);
-  return sentences;
+  return sentences_on(variants, unusual_value);
 }
 } // namespace feldspar

@@ -30,8 +30,6 @@ constexpr const char* record_name = "run.json";
 constexpr const char* page_name = "report.html";
 constexpr const char* film_name = "film.webp";
 
-bool has(const std::vector<std::string_view>& names, const std::string& wanted) { return contains(names, wanted); }
-
 bool is_specimen(const std::string& name) { return name.starts_with("specimen") && name.ends_with(".h5"); }
 
 /// Says whether every run of one rock may write this name of a specimen: specimen.h5, specimen_seed_1.h5.
@@ -166,9 +164,28 @@ std::set<std::string> files_of_runs(const fs::path& folder)
   const bool is_run = has_words(folder / record_name, "\"relative_to\"");
   const Places& places = is_run ? places_of_runs : places_of_reports;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string(); places.include(name) && !has(places.folders, name))
+    if (const std::string name = entry.path().filename().string();
+        places.include(name) && !contains(places.folders, name))
       files.insert(name);
   return files;
+}
+
+/// Moves the files of a run, and their list.
+void move_run(const std::set<std::string>& files, const fs::path& from, const fs::path& to)
+{
+  const auto move_one = [&](const fs::path& file) {
+    const fs::path target = to / file.lexically_relative(from);
+    fs::create_directories(target.parent_path());
+    if (is_there(file) && !fs::is_directory(fs::symlink_status(file)))
+      fs::rename(file, target);
+  };
+  for (const std::string& file : files)
+    if (lies_in(from, file))
+      for (const fs::path& one : with_later_names(from / file))
+        move_one(one);
+  move_one(from / list_name); // the last one: until then it says what is where
+  for (const std::string_view name : places_of_runs.folders)
+    remove_empty_folders(from / name);
 }
 } // namespace
 
@@ -176,7 +193,7 @@ bool Places::include(const std::filesystem::path& relative) const
 {
   const std::string first = relative.begin()->string();
   const bool is_at_top = std::next(relative.begin()) == relative.end();
-  return has(folders, first) || (is_at_top && (has(files, first) || (specimens && is_specimen(first))));
+  return contains(folders, first) || (is_at_top && (contains(files, first) || (specimens && is_specimen(first))));
 }
 
 const Places places_of_runs{{record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv",
@@ -278,9 +295,9 @@ void check_write_over(const std::filesystem::path& folder, const Places& places,
                          input.string(), folder.string());
     }
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string(); places.include(name) && !has(places.folders, name) &&
-                                                                   !of_runs.contains(name) &&
-                                                                   (!is_specimen(name) || is_usual_specimen(name)))
+    if (const std::string name = entry.path().filename().string();
+        places.include(name) && !contains(places.folders, name) && !of_runs.contains(name) &&
+        (!is_specimen(name) || is_usual_specimen(name)))
       throw InputError("--force: no run is known to have written {}, which this one would replace; move it "
                        "elsewhere, or choose another folder with --output",
                        (folder / name).string());
@@ -306,12 +323,11 @@ EarlierRun::EarlierRun(const std::filesystem::path& its_folder)
 {
   forget_earlier_run(folder);
   const std::set<std::string> files = files_of_runs(folder);
-  if (files.empty() || fs::is_symlink(fs::symlink_status(folder / earlier_name)))
-    return;
-  move(files, folder, folder / earlier_name);
+  if (!files.empty() && !fs::is_symlink(fs::symlink_status(folder / earlier_name)))
+    move_run(files, folder, folder / earlier_name);
 }
 
-void EarlierRun::restore() { move(files_of_runs(folder / earlier_name), folder / earlier_name, folder); }
+void EarlierRun::restore() { move_run(files_of_runs(folder / earlier_name), folder / earlier_name, folder); }
 
 EarlierRun::~EarlierRun()
 {
@@ -323,23 +339,6 @@ EarlierRun::~EarlierRun()
     {
       // A file that cannot be removed stays aside; the next run with --force tries again.
     }
-}
-
-void EarlierRun::move(const std::set<std::string>& files, const fs::path& from, const fs::path& to)
-{
-  const auto move_one = [&](const fs::path& file) {
-    const fs::path target = to / file.lexically_relative(from);
-    fs::create_directories(target.parent_path());
-    if (is_there(file) && !fs::is_directory(fs::symlink_status(file)))
-      fs::rename(file, target);
-  };
-  for (const std::string& file : files)
-    if (lies_in(from, file))
-      for (const fs::path& one : with_later_names(from / file))
-        move_one(one);
-  move_one(from / list_name); // the last one: until then it says what is where
-  for (const std::string_view name : places_of_runs.folders)
-    remove_empty_folders(from / name);
 }
 
 void forget_earlier_run(const std::filesystem::path& folder)

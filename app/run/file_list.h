@@ -74,9 +74,6 @@ public:
   void restore();
 
 private:
-  static void move(const std::set<std::string>& files, const std::filesystem::path& from,
-                   const std::filesystem::path& to);
-
   std::filesystem::path folder;
 };
 

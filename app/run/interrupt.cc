@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <string_view>
 
 namespace feldspar
@@ -43,6 +44,14 @@ void watch_for_interrupt(const bool acknowledged)
 }
 
 bool interrupted() { return was_interrupted; }
+
+std::function<bool()> end_of_patience()
+{
+  using Clock = std::chrono::steady_clock;
+  return [was_interrupted_before = interrupted(), deadline = Clock::now() + std::chrono::seconds(5)] {
+    return interrupted() && (!was_interrupted_before || Clock::now() > deadline);
+  };
+}
 
 void end_if_interrupted()
 {

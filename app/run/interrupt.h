@@ -2,7 +2,7 @@
 
 #include "runs/observer.h"
 
-#include <chrono>
+#include <functional>
 
 namespace feldspar
 {
@@ -15,19 +15,8 @@ void watch_for_interrupt(bool acknowledged);
 bool interrupted();
 
 /// For work that may take long after an interrupt, such as drawing: whether the run was asked to end and, if that was
-/// before this object was made, some seconds have passed since.
-class EndOfPatience
-{
-public:
-  bool operator()() const
-  {
-    return interrupted() && (!was_interrupted_before || std::chrono::steady_clock::now() > deadline);
-  }
-
-private:
-  bool was_interrupted_before = interrupted();
-  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-};
+/// before this call, some seconds have passed since.
+std::function<bool()> end_of_patience();
 
 /// Throws Interrupted where the run was asked to end.
 void end_if_interrupted();

@@ -25,22 +25,23 @@ InputError cannot_write(const std::filesystem::path& folder, const int error)
 
 OutputFolder::OutputFolder(const std::optional<std::filesystem::path>& wanted, const std::filesystem::path& input,
                            const std::function<void(const std::filesystem::path&)>& write_over)
+  : OutputFolder() // so that a folder which was made goes again where the rest throws
 {
-  try
-    {
-      if (wanted)
-        make_wanted(*wanted, write_over);
-      else
-        make_numbered(input);
-    }
-  catch (...)
-    {
-      remove_empty();
-      throw;
-    }
+  if (wanted)
+    make_wanted(*wanted, write_over);
+  else
+    for (unsigned int number = 1; made.empty(); ++number)
+      {
+        folder = input.parent_path() / fmt::format("{}-results-{:03}", input.stem().string(), number);
+        make(folder);
+      }
 }
 
-OutputFolder::~OutputFolder() { remove_empty(); }
+OutputFolder::~OutputFolder()
+{
+  for (auto last = made.rbegin(); last != made.rend(); ++last)
+    rmdir(last->c_str()); // which keeps a folder with something in it
+}
 
 bool OutputFolder::make(const std::filesystem::path& new_folder)
 {
@@ -52,15 +53,6 @@ bool OutputFolder::make(const std::filesystem::path& new_folder)
   if (errno != EEXIST)
     throw cannot_write(new_folder, errno);
   return false;
-}
-
-void OutputFolder::make_numbered(const std::filesystem::path& input)
-{
-  for (unsigned int number = 1; made.empty(); ++number)
-    {
-      folder = input.parent_path() / fmt::format("{}-results-{:03}", input.stem().string(), number);
-      make(folder);
-    }
 }
 
 void OutputFolder::make_wanted(const std::filesystem::path& wanted,
@@ -87,12 +79,6 @@ void OutputFolder::make_wanted(const std::filesystem::path& wanted,
                      folder.string(),
                      holds_a_run(folder) ? " (--force replaces the run in it, and keeps all other files)" : "");
   write_over(folder);
-}
-
-void OutputFolder::remove_empty() const
-{
-  for (auto last = made.rbegin(); last != made.rend(); ++last)
-    rmdir(last->c_str()); // which keeps a folder with something in it
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder)

@@ -24,13 +24,13 @@ public:
   const std::filesystem::path& path() const { return folder; }
 
 private:
+  OutputFolder() = default;
+
   /// Makes a folder. Returns whether it was made now; false if it is there already. One of several runs that try at
   /// once makes it.
   bool make(const std::filesystem::path& new_folder);
-  void make_numbered(const std::filesystem::path& input);
   void make_wanted(const std::filesystem::path& wanted,
                    const std::function<void(const std::filesystem::path& folder)>& write_over);
-  void remove_empty() const;
 
   std::filesystem::path folder;
   std::vector<std::filesystem::path> made;

@@ -62,12 +62,12 @@ std::string wrapped(const std::string_view text, const std::size_t width)
   return result;
 }
 
-std::optional<std::size_t> columns_of_terminal()
+std::string for_terminal(const std::string_view text)
 {
-  winsize size{};
   if (isatty(STDOUT_FILENO) == 0)
-    return std::nullopt;
+    return std::string(text);
+  winsize size{};
   constexpr std::size_t usual = 80;
-  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > usual / 2 ? size.ws_col : usual;
+  return wrapped(text, ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > usual / 2 ? size.ws_col : usual);
 }
 } // namespace feldspar

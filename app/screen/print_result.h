@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,8 +20,8 @@ std::string printable_lines(std::string_view text);
 /// Rows of tables, which have three spaces or more within, and words that are longer stay as they are.
 std::string wrapped(std::string_view text, std::size_t width);
 
-/// Columns of the terminal that results go to; nothing where they go elsewhere.
-std::optional<std::size_t> columns_of_terminal();
+/// The text as results show it: wrapped on a terminal, as it stands elsewhere.
+std::string for_terminal(std::string_view text);
 
 template <typename... T>
 void print_result(fmt::format_string<T...> format, T&&... values)

@@ -4,7 +4,6 @@
 #include "base/input_error.h"
 #include "base/readable_file.h"
 #include "base/whole_file.h"
-#include "base/write_at.h"
 
 #include <unistd.h>
 

@@ -19,6 +19,14 @@ MPI_Comm of_group = MPI_COMM_NULL, of_machine = MPI_COMM_NULL;
 
 bool is_alone() { return of_group == MPI_COMM_NULL; }
 
+/// Size or rank in a group, by MPI; `alone` without one.
+int asked(int (*const of)(MPI_Comm, int*), const MPI_Comm& group, int alone)
+{
+  if (!is_alone())
+    of(group, &alone);
+  return alone;
+}
+
 int all(const int here, const MPI_Op operation)
 {
   int result = here;
@@ -36,29 +44,11 @@ Group::~Group() { of_group = of_machine = MPI_COMM_NULL; }
 
 MPI_Comm communicator() { return of_group; }
 
-unsigned int number()
-{
-  int n = 1;
-  if (!is_alone())
-    MPI_Comm_size(of_group, &n);
-  return unsigned(n);
-}
+unsigned int number() { return unsigned(asked(MPI_Comm_size, of_group, 1)); }
 
-unsigned int mine()
-{
-  int rank = 0;
-  if (!is_alone())
-    MPI_Comm_rank(of_group, &rank);
-  return unsigned(rank);
-}
+unsigned int mine() { return unsigned(asked(MPI_Comm_rank, of_group, 0)); }
 
-unsigned int number_on_this_machine()
-{
-  int n = 1;
-  if (!is_alone())
-    MPI_Comm_size(of_machine, &n);
-  return unsigned(n);
-}
+unsigned int number_on_this_machine() { return unsigned(asked(MPI_Comm_size, of_machine, 1)); }
 
 bool any(const bool here) { return is_alone() ? here : all(here, MPI_MAX) != 0; }
 
@@ -92,12 +82,7 @@ std::string of_rank(const unsigned int rank, std::string text)
     MPI_Bcast(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, int(rank), of_group);
   return text;
 }
-} // namespace
 
-std::string of_first(const std::string& text) { return number() == 1 ? text : of_rank(0, text); }
-
-namespace
-{
 /// Gathers the bytes of all ranks on the first; nothing on others.
 template <typename Bytes>
 Bytes gathered_on_first(const std::span<const typename Bytes::value_type> own)
@@ -130,6 +115,8 @@ Bytes gathered_on_first(const std::span<const typename Bytes::value_type> own)
   return all;
 }
 } // namespace
+
+std::string of_first(const std::string& text) { return number() == 1 ? text : of_rank(0, text); }
 
 std::string gathered(const std::string& text) { return gathered_on_first<std::string>(text); }
 
@@ -199,30 +186,18 @@ void together(const std::function<void()>& work)
   Outcome outcome = done;
   std::string what;
   std::exception_ptr alone;
-  const auto note = [&](const Outcome of, const std::string& text) {
-    outcome = of;
-    what = text;
-    alone = std::current_exception();
-  };
   try
     {
       work();
     }
-  catch (const InputError& error)
-    {
-      note(input_error, error.what());
-    }
-  catch (const OutputError& error)
-    {
-      note(output_error, error.what());
-    }
-  catch (const std::system_error& error)
-    {
-      note(output_error, error.what());
-    }
   catch (const std::exception& error)
     {
-      note(other, error.what());
+      outcome = dynamic_cast<const InputError*>(&error)          ? input_error
+                : dynamic_cast<const OutputError*>(&error)       ? output_error
+                : dynamic_cast<const std::system_error*>(&error) ? output_error
+                                                                 : other;
+      what = error.what();
+      alone = std::current_exception();
     }
   if (number() == 1)
     {
@@ -246,9 +221,7 @@ void together(const std::function<void()>& work)
 void in_turn(const std::function<void()>& work)
 {
   together([&] {
-    int own_turn = 0;
-    if (!is_alone())
-      MPI_Comm_rank(of_machine, &own_turn);
+    const int own_turn = asked(MPI_Comm_rank, of_machine, 0);
     std::exception_ptr failure;
     for (int turn = 0, n = int(number_on_this_machine()); turn < n; ++turn)
       {

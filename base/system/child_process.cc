@@ -69,12 +69,12 @@ void limit_process(const ProcessLimits& limits)
   _exit(0);
 }
 
-/// A child process that is ended with this object.
-class Child
+/// A child process and the end of its pipe, which end with this object.
+struct Child
 {
-public:
-  explicit Child(const pid_t number)
-    : pid(number)
+  Child(const pid_t of_process, const int end_of_pipe)
+    : pid(of_process)
+    , out(end_of_pipe)
   {
   }
   Child(const Child&) = delete;
@@ -86,6 +86,7 @@ public:
         kill(pid, SIGKILL);
         wait();
       }
+    close(out);
   }
 
   /// Waits for the child and returns its status by <sys/wait.h>; none where another has taken it.
@@ -100,47 +101,27 @@ public:
     return ended > 0 ? std::optional(status) : std::nullopt;
   }
 
-private:
   pid_t pid;
+  int out;
 };
-
-struct Descriptor
-{
-  explicit Descriptor(const int opened)
-    : number(opened)
-  {
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close_now(); }
-  void close_now()
-  {
-    if (number >= 0)
-      close(number);
-    number = -1;
-  }
-  int number;
-};
-
 } // namespace
 
 std::string made_by_child(const std::string& worker, const ProcessLimits& limits,
                           const std::function<std::string()>& work, const std::function<void()>& check)
 {
-  const auto fail = [&](const char* what) {
-    throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(errno)));
+  const auto fail = [](const char* what, const int error) {
+    throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(error)));
   };
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    fail("no pipe to a child process");
-  Descriptor out(ends[0]), in(ends[1]);
-  const pid_t pid = fork();
-  if (pid < 0)
-    fail("no child process");
-  if (pid == 0)
-    work_as_child(in.number, limits, work);
-  Child child(pid);
-  in.close_now();
+    fail("no pipe to a child process", errno);
+  Child child(fork(), ends[0]);
+  if (child.pid == 0)
+    work_as_child(ends[1], limits, work);
+  const int error = errno;
+  close(ends[1]);
+  if (child.pid < 0)
+    fail("no child process", error);
 
   std::string reply;
   std::vector<char> piece(std::size_t(1) << 16);
@@ -148,10 +129,10 @@ std::string made_by_child(const std::string& worker, const ProcessLimits& limits
     {
       constexpr int a_moment = 100; // ms
       check();
-      pollfd wanted{out.number, POLLIN, 0};
+      pollfd wanted{child.out, POLLIN, 0};
       if (poll(&wanted, 1, a_moment) <= 0)
         continue;
-      const ssize_t n = ::read(out.number, piece.data(), piece.size());
+      const ssize_t n = ::read(child.out, piece.data(), piece.size());
       if (n < 0 && errno == EINTR)
         continue;
       if (n <= 0)

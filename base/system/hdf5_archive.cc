@@ -8,24 +8,22 @@
 
 #include <sys/mman.h>
 
+#include <mutex>
 #include <stdexcept>
 
 namespace feldspar
 {
 namespace
 {
-void add_notice(const H5::Group& root)
-{
-  std::uint32_t sealed = 1;
-  Hdf5Writer(root).value(std::string(seal_notice), sealed);
-}
+std::mutex of_library; // which is not made for several threads at once
 
 /// Writes an HDF5 file with its notice into an empty open file. Returns 0 or the error number of the system. The caller
 /// holds the lock of the library.
 int fill(const int descriptor, const std::string& name, const std::function<void(const H5::Group&)>& write)
 {
   return make_hdf5(descriptor, name, [&](const H5::Group& root) {
-    add_notice(root);
+    std::uint32_t sealed = 1;
+    Hdf5Writer(root).value(std::string(seal_notice), sealed);
     write(root);
   });
 }
@@ -33,11 +31,10 @@ int fill(const int descriptor, const std::string& name, const std::function<void
 void write_sealed_hdf5(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
 {
   write_whole_file(file, [&](const int descriptor) {
-    const auto error = [&] {
-      const std::lock_guard lock(hdf5_mutex());
-      H5::Exception::dontPrint();
-      return fill(descriptor, file.string(), write);
-    }();
+    std::unique_lock lock(of_library);
+    H5::Exception::dontPrint();
+    const int error = fill(descriptor, file.string(), write);
+    lock.unlock();
     return error != 0 ? error : append_seal(descriptor);
   });
 }
@@ -54,26 +51,15 @@ void copy_array(const H5::DataSet& array, const std::string& name, const H5::Gro
 }
 
 /// Throws InputError for what is wrong in the file, without its name.
-void read_from(const H5::H5File& in, const std::uint64_t size, const std::string& expected,
-               const std::function<void(Hdf5Reader&)>& use, std::optional<H5::Group> copy = {})
+void read_from(const std::filesystem::path& file, const std::uint64_t size, const std::string& expected,
+               const std::function<void(Hdf5Reader&)>& use, std::optional<H5::Group> copy = {},
+               const H5::FileAccPropList& access = H5::FileAccPropList::DEFAULT)
 {
   try
     {
+      const H5::H5File in(file.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access);
       Hdf5Reader reader(in.openGroup("/"), size, std::move(copy));
       use(reader);
-    }
-  catch (const H5::Exception&)
-    {
-      throw InputError("not an HDF5 file, cut short, or not {}", expected);
-    }
-}
-
-H5::H5File open_to_read(const std::filesystem::path& file, const std::string& expected,
-                        const H5::FileAccPropList& access = H5::FileAccPropList::DEFAULT)
-{
-  try
-    {
-      return {file.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
     }
   catch (const H5::Exception&)
     {
@@ -93,10 +79,9 @@ std::string copy_by_child(const std::filesystem::path& file, const std::string& 
   return made_by_child(
     "the HDF5 library", limits,
     [&] {
-      const H5::H5File in = open_to_read(file, expected);
       const int copy = memfd_create("copy", 0);
       if (copy < 0 ||
-          fill(copy, file.string(), [&](const H5::Group& root) { read_from(in, size, expected, use, root); }) != 0)
+          fill(copy, file.string(), [&](const H5::Group& root) { read_from(file, size, expected, use, root); }) != 0)
         throw InputError("cannot be read safely: there is no memory for a copy");
       return content_of(fmt::format("/proc/self/fd/{}", copy));
     },
@@ -107,7 +92,7 @@ std::string copy_by_child(const std::filesystem::path& file, const std::string& 
 void read(const std::filesystem::path& file, const std::string& expected, const std::function<void(Hdf5Reader&)>& use,
           const std::function<void()>& foreign)
 {
-  const std::lock_guard lock(hdf5_mutex());
+  const std::lock_guard lock(of_library);
   H5::Exception::dontPrint();
   try
     {
@@ -122,7 +107,7 @@ void read(const std::filesystem::path& file, const std::string& expected, const 
       if (seal == Seal::none)
         foreign();
       else
-        read_from(open_to_read(file, expected), std::filesystem::file_size(file), expected, use);
+        read_from(file, std::filesystem::file_size(file), expected, use);
     }
   catch (const InputError& error)
     {
@@ -171,7 +156,7 @@ void read_foreign_hdf5(const std::filesystem::path& file, const std::string& exp
     if (H5Pset_file_image(in_memory.getId(), const_cast<char*>(image.data()), image.size()) < 0)
       throw std::runtime_error(fmt::format("{}: HDF5 takes no image of the file", file.string()));
     // An image has a name under which there is no file.
-    read_from(open_to_read(file / "copy", expected, in_memory), image.size(), expected, use);
+    read_from(file / "copy", image.size(), expected, use, {}, in_memory);
   });
 }
 } // namespace feldspar

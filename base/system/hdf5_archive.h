@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -20,20 +19,18 @@
 /// Writing and reading HDF5 by one description: `transfer(archive, object)` names each value once and serves both.
 namespace feldspar
 {
+/// Numbers as files hold them; all else is plain structs, for files that return to the same program.
 template <typename T>
+concept StoredNumber = std::is_same_v<T, double> || std::is_same_v<T, std::uint64_t> ||
+  std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::uint8_t>;
+
+template <StoredNumber T>
 const H5::PredType& stored_type()
 {
-  if constexpr (std::is_same_v<T, double>)
-    return H5::PredType::NATIVE_DOUBLE;
-  else if constexpr (std::is_same_v<T, std::uint64_t>)
-    return H5::PredType::NATIVE_UINT64;
-  else if constexpr (std::is_same_v<T, std::uint8_t>)
-    return H5::PredType::NATIVE_UINT8;
-  else
-    {
-      static_assert(std::is_same_v<T, std::uint32_t>);
-      return H5::PredType::NATIVE_UINT32;
-    }
+  return std::is_same_v<T, double>          ? H5::PredType::NATIVE_DOUBLE
+         : std::is_same_v<T, std::uint64_t> ? H5::PredType::NATIVE_UINT64
+         : std::is_same_v<T, std::uint32_t> ? H5::PredType::NATIVE_UINT32
+                                            : H5::PredType::NATIVE_UINT8;
 }
 
 /// Leaves out the time at which an array was made: equal results have equal files.
@@ -63,7 +60,7 @@ public:
 
   /// Writes an array with a checksum: a change by a disk or a broken write is seen when it is read. `n_columns` values
   /// make a row. Pieces have a checksum each, because the library copies a piece twice and takes none of 4 GB.
-  template <typename T, typename Allocator>
+  template <StoredNumber T, typename Allocator>
   void array(const std::string& name, std::vector<T, Allocator>& values, const std::size_t n_columns = 1)
   {
     const std::array<hsize_t, 2> shape{values.size() / n_columns, n_columns};
@@ -82,9 +79,9 @@ public:
       .write(values.data(), stored_type<T>());
   }
 
-  /// Plain structs as they lie in memory, for files that return to the same program.
+  /// Plain structs as they lie in memory.
   template <typename T>
-  void bytes(const std::string& name, std::vector<T>& values)
+  requires(!StoredNumber<T>) void array(const std::string& name, std::vector<T>& values)
   {
     static_assert(std::is_trivially_copyable_v<T>);
     const auto* const begin = reinterpret_cast<const std::uint8_t*>(values.data());
@@ -133,7 +130,7 @@ public:
   /// Returns the number of values of an array.
   std::size_t size_of(const std::string& name) const { return size_of(name, group.openDataSet(name)); }
 
-  template <typename T, typename Allocator>
+  template <StoredNumber T, typename Allocator>
   void array(const std::string& name, std::vector<T, Allocator>& values)
   {
     const H5::DataSet set = group.openDataSet(name);
@@ -147,7 +144,7 @@ public:
   }
 
   template <typename T>
-  void bytes(const std::string& name, std::vector<T>& values)
+  requires(!StoredNumber<T>) void array(const std::string& name, std::vector<T>& values)
   {
     static_assert(std::is_trivially_copyable_v<T>);
     std::vector<std::uint8_t> raw;
@@ -192,13 +189,6 @@ private:
   std::uint64_t file_size;
   std::optional<H5::Group> copy;
 };
-
-/// The library is not made for several threads at once.
-inline std::mutex& hdf5_mutex()
-{
-  static std::mutex mutex;
-  return mutex;
-}
 
 /// Writes a file whole or not at all, with a seal (base/checksum/seal.h), an array at a time. Throws OutputError, which names file
 /// and cause.

@@ -1,6 +1,6 @@
 #include "base/system/watched_file.h"
 
-#include "base/write_at.h"
+#include "base/whole_file.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

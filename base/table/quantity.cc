@@ -74,11 +74,7 @@ using Owner = std::unique_ptr<T, Free>;
 class CLocale
 {
 public:
-  CLocale()
-    : c_locale(newlocale(LC_ALL_MASK, "C", nullptr))
-    , previous(uselocale(c_locale))
-  {
-  }
+  CLocale() = default;
   CLocale(const CLocale&) = delete;
   CLocale& operator=(const CLocale&) = delete;
   ~CLocale()
@@ -88,8 +84,8 @@ public:
   }
 
 private:
-  const locale_t c_locale;
-  const locale_t previous;
+  const locale_t c_locale = newlocale(LC_ALL_MASK, "C", nullptr);
+  const locale_t previous = uselocale(c_locale);
 };
 
 Owner<ut_system> read_unit_system()
@@ -104,11 +100,7 @@ Owner<ut_system> read_unit_system()
 }
 
 /// UDUNITS is not made for several threads at once: its parser keeps its place in global variables.
-std::mutex& units_mutex()
-{
-  static std::mutex mutex;
-  return mutex;
-}
+std::mutex of_units;
 
 /// Parses a unit; to be called under the lock.
 Owner<ut_unit> parse_unit(const std::string_view text)
@@ -132,7 +124,7 @@ bool are_of_one_dimension(ut_unit* unit, ut_unit* si_unit)
 
 bool is_known_unit(const std::string_view text)
 {
-  const std::lock_guard lock(units_mutex());
+  const std::lock_guard lock(of_units);
   return is_unit_expression(text) && parse_unit(text);
 }
 
@@ -160,7 +152,7 @@ std::size_t find_space(const std::string_view text, const Dimension& dimension)
 
 double to_si(const double value, const std::string_view unit, const Dimension& dimension)
 {
-  const std::lock_guard lock(units_mutex());
+  const std::lock_guard lock(of_units);
   const Owner<ut_unit> from = parse_unit(unit);
   const Owner<ut_unit> si = parse_unit(dimension.si_unit);
   if (!from)

@@ -61,34 +61,21 @@ struct ColumnOfSix
   double& operator[](const int k) { return reinterpret_cast<double*>(halves.data())[k]; }
   double operator[](const int k) const { return reinterpret_cast<const double*>(halves.data())[k]; }
 
-  ColumnOfSix& operator+=(const ColumnOfSix& other)
-  {
-    halves[0] += other.halves[0];
-    halves[1] += other.halves[1];
-    return *this;
-  }
   ColumnOfSix& operator-=(const ColumnOfSix& other)
   {
     halves[0] -= other.halves[0];
     halves[1] -= other.halves[1];
     return *this;
   }
-  ColumnOfSix& operator*=(const ColumnOfSix& other)
-  {
-    halves[0] *= other.halves[0];
-    halves[1] *= other.halves[1];
-    return *this;
-  }
-  ColumnOfSix& operator*=(const double factor)
-  {
-    halves[0] *= factor;
-    halves[1] *= factor;
-    return *this;
-  }
 
-  friend ColumnOfSix operator+(ColumnOfSix one, const ColumnOfSix& other) { return one += other; }
-  friend ColumnOfSix operator*(ColumnOfSix one, const ColumnOfSix& other) { return one *= other; }
-  friend ColumnOfSix operator*(ColumnOfSix one, const double factor) { return one *= factor; }
+  friend ColumnOfSix operator*(const ColumnOfSix& one, const ColumnOfSix& other)
+  {
+    return {{one.halves[0] * other.halves[0], one.halves[1] * other.halves[1]}};
+  }
+  friend ColumnOfSix operator*(const ColumnOfSix& one, const double factor)
+  {
+    return {{one.halves[0] * factor, one.halves[1] * factor}};
+  }
 };
 
 inline ColumnOfSix minus_product(const ColumnOfSix& sum, const ColumnOfSix& a, const ColumnOfSix& b)

@@ -30,19 +30,19 @@ template <int dim>
 void BlockFactor<dim>::add(const Link<dim>& link, const JointStiffness<dim>& stiffness)
 {
   const Eigen::Matrix<double, 2 * n, 2 * n> of_link = link.by_grains.transpose() * (stiffness * link.by_grains);
-  const auto place = pattern->place_of(link);
-  add_block(of_link.template topLeftCorner<n, n>(), &diagonals[n * place.first]);
-  add_block(of_link.template bottomRightCorner<n, n>(), &diagonals[n * place.second]);
+  const std::uint32_t first = pattern->place(link.grain_1), second = pattern->place(link.grain_2);
+  add_block(of_link.template topLeftCorner<n, n>(), &diagonals[n * first]);
+  add_block(of_link.template bottomRightCorner<n, n>(), &diagonals[n * second]);
   const auto coupling = of_link.template topRightCorner<n, n>(); // rows of the first grain
-  if (place.block == StiffnessPattern::none)
+  if (first == second)                                           // a grain and its image
     {
-      add_block(coupling, &diagonals[n * place.first]);
-      add_block(coupling.transpose(), &diagonals[n * place.first]);
+      add_block(coupling, &diagonals[n * first]);
+      add_block(coupling.transpose(), &diagonals[n * first]);
     }
-  else if (place.is_transposed)
-    add_block(coupling.transpose(), &blocks[n * place.block]);
+  else if (first < second)
+    add_block(coupling.transpose(), &blocks[n * pattern->block_at(second, first)]);
   else
-    add_block(coupling, &blocks[n * place.block]);
+    add_block(coupling, &blocks[n * pattern->block_at(first, second)]);
 }
 
 template <int dim>
@@ -125,7 +125,7 @@ void BlockFactor<dim>::factorise_column(const std::size_t k)
         for (int before = 0; before < c; ++before)
           block[c] -= block[before] * of_diagonal[before][c];
       for (int c = 0; c < n; ++c)
-        block[c] *= inverse_pivots.back()[c];
+        block[c] = block[c] * inverse_pivots.back()[c];
     }
 }
 

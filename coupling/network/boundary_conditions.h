@@ -55,10 +55,6 @@ public:
   Eigen::Index n_multipliers() const { return Eigen::Index(rows.size()); }
   /// λ that carries most of these forces, by least squares.
   Eigen::VectorXd multipliers(const Eigen::VectorXd& forces) const;
-  Vector<dim> traction(const Eigen::VectorXd& multipliers, const std::size_t piece) const
-  {
-    return multipliers.segment<dim>(dim * Eigen::Index(piece));
-  }
 
 private:
   struct Entry

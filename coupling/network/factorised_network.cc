@@ -5,38 +5,28 @@
 
 namespace feldspar
 {
-namespace
-{
-template <int dim>
-std::array<Eigen::Index, 2> first_motions(const Link<dim>& link)
-{
-  return {n_motions<dim> * Eigen::Index(link.grain_1), n_motions<dim> * Eigen::Index(link.grain_2)};
-}
-} // namespace
-
 template <int dim>
 FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, const std::size_t n_grains,
                                           std::shared_ptr<const BoundaryConditions<dim>> admitted,
-                                          const StiffnessOf<dim>& stiffness_of, const Motion<dim>& regularising)
+                                          const LinkStiffnesses<dim>& stiffnesses, const Motion<dim>& regularising)
   : its_conditions(std::move(admitted))
   , of_strains(Stiffness<dim>::Zero())
 {
   constexpr int n = n_motions<dim>;
   const Eigen::Index n_own = n * Eigen::Index(n_grains);
-  const auto bears = [&](const std::uint32_t link) { return stiffness_of(link) != nullptr; };
+  const auto bears = [&](const std::uint32_t link) { return stiffnesses[link] != nullptr; };
   const auto made =
     std::make_shared<BlockFactor<dim>>(std::make_shared<const StiffnessPattern>(links, n_grains, bears));
   Eigen::MatrixXd of_unit_strains = Eigen::MatrixXd::Zero(n_own, n_voigt<dim>);
   for (std::uint32_t k = 0; k < links.size(); ++k)
-    if (const JointStiffness<dim>* const stiffness = stiffness_of(k))
+    if (const JointStiffness<dim>* const stiffness = stiffnesses[k])
       {
         made->add(links[k], *stiffness);
         const LinkStrainGradient<dim>& by_strain = links[k].by_strain;
         const Eigen::Matrix<double, 2 * n, n_voigt<dim>> forces =
           links[k].by_grains.transpose() * (*stiffness * by_strain);
-        const auto first = first_motions(links[k]);
-        for (int end = 0; end < 2; ++end)
-          of_unit_strains.block<n, n_voigt<dim>>(first[end], 0) += forces.template middleRows<n>(n * end);
+        of_unit_strains.middleRows<n>(n * Eigen::Index(links[k].grain_1)) += forces.template topRows<n>();
+        of_unit_strains.middleRows<n>(n * Eigen::Index(links[k].grain_2)) += forces.template bottomRows<n>();
         of_strains += by_strain.transpose() * *stiffness * by_strain;
       }
   coupling = std::make_shared<const Eigen::MatrixXd>(std::move(of_unit_strains));
@@ -91,7 +81,7 @@ void FactorisedNetwork<dim>::condense()
     UnitUnknowns<dim>::Zero(n_own + n_voigt<dim>, UnitUnknowns<dim>::ColsAtCompileTime);
   of_unit_strains.topLeftCorner(n_own, n_voigt<dim>) = *coupling;
   unit_motion = -solve_with_strain_held(of_unit_strains).topLeftCorner(n_own, n_voigt<dim>);
-  condensed = of_strains + coupling->transpose().lazyProduct(unit_motion); // as TangentSolver::tangent()
+  condensed = of_strains + coupling->transpose().lazyProduct(unit_motion); // as Equilibrium::tangent()
 }
 
 template <int dim>
@@ -119,8 +109,6 @@ Columns FactorisedNetwork<dim>::solve_unconditioned(const Columns& forces) const
 template <int dim>
 Eigen::VectorXd FactorisedNetwork<dim>::solve_grains(Eigen::VectorXd forces) const
 {
-  if (its_conditions->are_none())
-    return solve_unconditioned(forces);
   its_conditions->project(forces);
   Eigen::VectorXd motions = solve_unconditioned(forces);
   if (its_conditions->n_multipliers() > 0)

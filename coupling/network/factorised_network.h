@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -18,9 +17,9 @@ static_assert(EIGEN_MALLOC_ALREADY_ALIGNED && EIGEN_DEFAULT_ALIGN_BYTES == 16,
 
 namespace feldspar
 {
-/// Stiffness of a link, or nothing where it has none at present.
+/// The stiffness of each link in its own axes, null where it has none at present; [n_links].
 template <int dim>
-using StiffnessOf = std::function<const JointStiffness<dim>*(std::uint32_t link)>;
+using LinkStiffnesses = std::vector<const JointStiffness<dim>*>;
 
 /// A network with given stiffnesses, solved directly: nearly the inverse of its equations, for conjugate gradients. Copies
 /// share the factor.
@@ -31,7 +30,7 @@ public:
   /// `regularising`: of each motion of a grain, added so that what floats does not make the matrix singular [N/m, N m].
   /// Motions are those that the conditions admit.
   FactorisedNetwork(const std::vector<Link<dim>>& links, std::size_t n_grains,
-                    std::shared_ptr<const BoundaryConditions<dim>> conditions, const StiffnessOf<dim>& stiffness_of,
+                    std::shared_ptr<const BoundaryConditions<dim>> conditions, const LinkStiffnesses<dim>& stiffnesses,
                     const Motion<dim>& regularising);
 
   /// The same factor under other conditions, which hold the same grains.

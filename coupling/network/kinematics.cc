@@ -114,7 +114,7 @@ TurnedLink<dim>::TurnedLink(const Link<dim>& link, const Unknowns& position)
 }
 
 template <int dim>
-Tensor<dim> TurnedLink<dim>::gradient_by_way() const
+TurnedGradient<dim> TurnedLink<dim>::gradient() const
 {
   Tensor<dim> result;
   result.row(0) = end.transpose() / length;
@@ -124,7 +124,7 @@ Tensor<dim> TurnedLink<dim>::gradient_by_way() const
       result(c, 0) = -length_at_rest * end[c] / (length * length);
       result(c, c) += length_at_rest * slope;
     }
-  return result;
+  return {result, turns};
 }
 
 template <int dim>

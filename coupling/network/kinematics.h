@@ -47,15 +47,13 @@ public:
   /// Motion since rest [m, rad].
   const Motion<dim>& motion() const { return its_motion; }
 
-  TurnedGradient<dim> gradient() const { return {gradient_by_way(), turns}; }
+  TurnedGradient<dim> gradient() const;
 
   /// Stiffness against displacements of the second centre that forces of the link, conjugate to its motion, add because
   /// they turn with the branch [N/m]. Symmetric; to first order in the angle of the branch.
   Tensor<dim> stiffness(const Motion<dim>& forces) const;
 
 private:
-  Tensor<dim> gradient_by_way() const;
-
   double length_at_rest;
   Vector<dim> end; ///< of the branch, in the axes at rest [m]
   double length;

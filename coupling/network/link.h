@@ -52,12 +52,6 @@ struct Link
   LinkStrainGradient<dim> by_strain{};
 };
 
-/// The gradient of a link with these axes, arms and branch; docs/theory.md §9.1.
-template <int dim>
-LinkGradient<dim> link_gradient(const Link<dim>& link);
-template <int dim>
-LinkStrainGradient<dim> link_strain_gradient(const Link<dim>& link);
-
 /// Displacement of the second centre relative to the first, beyond the branch at rest, in the axes at rest [m]. This
 /// function and those below use the axes, the arms and the branch: the gradients, half of which are zeros, would take
 /// three times as long.

@@ -54,13 +54,9 @@ flat_joint::Segment<dim, double> segment_of(const Link<dim>& link, const FaceEle
 
 /// Share of a segment that counts as closed to shear: 1 at a gap of -width, 0 at +width. The law of dem/ has a jump
 /// there, and no equilibrium may be found where one lies on it.
-class Closure
+struct Closure
 {
-public:
-  explicit Closure(const double of_width)
-    : width(of_width)
-  {
-  }
+  double width; ///< [m]
 
   double at(const double gap) const { return std::clamp(0.5 - 0.5 * gap / width, 0.0, 1.0); }
 
@@ -78,7 +74,6 @@ public:
     return (at(to) - mean(from, to)) / (to - from);
   }
 
-private:
   bool is_short(const double from, const double to) const { return std::abs(to - from) < 1e-6 * width; }
 
   double integral(const double gap) const
@@ -86,8 +81,6 @@ private:
     const double within = std::clamp(gap, -width, width);
     return std::min(gap, -width) + 0.5 * (within + width) - 0.25 * (within * within - width * width) / width;
   }
-
-  double width; ///< [m]
 };
 
 /// A segment of a link on its way from the last event.
@@ -189,7 +182,7 @@ void add_unbonded(const MovingSegment<dim>& of, const SegmentHistory<dim>& old, 
   const Link<dim>& link = of.link;
   const double k_s = link.shear_stiffness;
   const double area = of.face.area();
-  const Closure closure(closure_width_ratio * link.half_length);
+  const Closure closure{closure_width_ratio * link.half_length};
   flat_joint::SegmentMotion<dim, double> step;
   step.gap_before = of.gap_before();
   step.gap = of.gap();
@@ -270,8 +263,8 @@ void add_softened(const MovingSegment<dim>& of, const JointStiffness<dim>& bonde
 
 /// Response of a flat joint, whose bonds may soften, or of a pair without a face.
 template <typename Law, int dim>
-void flat_joint_response(const Law& law, const Network<dim>& network, const ActiveLink<dim>& active,
-                         const Motion<dim>& motion, LinkResponse<dim>& result)
+void face_response(const Law& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                   const Motion<dim>& motion, LinkResponse<dim>& result)
 {
   for (std::uint32_t i = 0; i < active.segments.size(); ++i)
     {
@@ -290,20 +283,6 @@ void flat_joint_response(const Law& law, const Network<dim>& network, const Acti
       else
         add_bonded(moving, stiffness, motion, result, segment);
     }
-}
-
-template <int dim>
-void face_response(const FlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
-                   const Motion<dim>& motion, LinkResponse<dim>& result)
-{
-  flat_joint_response(law, network, active, motion, result);
-}
-
-template <int dim>
-void face_response(const SofteningFlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
-                   const Motion<dim>& motion, LinkResponse<dim>& result)
-{
-  flat_joint_response(law, network, active, motion, result);
 }
 
 /// Response of a parallel bond and of the linear contact beside it, by one return map from the last event.

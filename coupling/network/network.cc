@@ -64,6 +64,46 @@ Tensor<dim> joint_axes(const Joints<dim>& joints, const std::size_t joint)
   else
     return contact_axes(normal, at<dim>(joints.tangent, joint));
 }
+
+/// The gradients of a link with these axes, arms and branch; docs/theory.md §9.1.
+template <int dim>
+LinkGradient<dim> link_gradient(const Link<dim>& link)
+{
+  LinkGradient<dim> gradient = LinkGradient<dim>::Zero();
+  auto of_1 = gradient.template leftCols<n_motions<dim>>();
+  auto of_2 = gradient.template rightCols<n_motions<dim>>();
+  of_1.template topLeftCorner<dim, dim>() = -link.axes;
+  of_2.template topLeftCorner<dim, dim>() = link.axes;
+  // U of the contact point: a turn φ adds φ × (a_1 n) to the one side and φ × (-a_2 n) to the other.
+  if constexpr (dim == 2)
+    {
+      of_1(1, 2) = -link.arm_1;
+      of_2(1, 2) = -link.arm_2;
+      of_1(2, 2) = -1.0;
+      of_2(2, 2) = 1.0;
+    }
+  else
+    {
+      const auto about_t1 = link.axes.row(1);
+      const auto about_t2 = link.axes.row(2);
+      of_1.template block<1, 3>(1, 3) = -link.arm_1 * about_t2;
+      of_1.template block<1, 3>(2, 3) = link.arm_1 * about_t1;
+      of_2.template block<1, 3>(1, 3) = -link.arm_2 * about_t2;
+      of_2.template block<1, 3>(2, 3) = link.arm_2 * about_t1;
+      of_1.template bottomRightCorner<3, 3>() = -link.axes;
+      of_2.template bottomRightCorner<3, 3>() = link.axes;
+    }
+  return gradient;
+}
+
+template <int dim>
+LinkStrainGradient<dim> link_strain_gradient(const Link<dim>& link)
+{
+  LinkStrainGradient<dim> gradient = LinkStrainGradient<dim>::Zero();
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    gradient.template block<dim, 1>(0, k) = link.axes * (strain_tensor<dim>(Voigt<dim>::Unit(k)) * link.branch);
+  return gradient;
+}
 } // namespace
 
 template <int dim>
@@ -189,10 +229,6 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
     {
       link.axes = link.axes * rotation.transpose();
       link.branch = rotation * link.branch;
-    }
-
-  for (Link<dim>& link : all_links)
-    {
       link.by_grains = link_gradient(link);
       link.by_strain = link_strain_gradient(link);
     }
@@ -231,22 +267,21 @@ void Network<dim>::factorise_intact()
       stiffness_scale += (diagonal.template head<n_motions<dim>>() + diagonal.template tail<n_motions<dim>>()) /
                          double(number_of_grains);
     }
-  const auto bonded = [&](const std::uint32_t link) {
-    return link < number_of_joints ? &bonded_stiffnesses[link] : nullptr;
-  };
-  const auto factor_of = [&](const StiffnessOf<dim>& stiffness_of) {
-    const double regularising_share = boundary_conditions->pieces().empty() ? regularity : regularity_of_open_cells;
-    return std::make_unique<FactorisedNetwork<dim>>(all_links, number_of_grains, boundary_conditions, stiffness_of,
-                                                    regularising_share * stiffness_scale);
-  };
-  factorised = factor_of(bonded);
+  const double regularising_share = boundary_conditions->pieces().empty() ? regularity : regularity_of_open_cells;
+  LinkStiffnesses<dim> stiffnesses(all_links.size(), nullptr);
+  for (std::size_t j = 0; j < number_of_joints; ++j)
+    stiffnesses[j] = &bonded_stiffnesses[j];
+  factorised.emplace(factorise(stiffnesses, regularising_share, boundary_conditions));
 
-  std::vector<JointStiffness<dim>> stiffest = bonded_stiffnesses;
+  std::vector<JointStiffness<dim>> of_points(all_links.size());
   const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face is in contact
   for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
-    stiffest.push_back(
-      element_stiffness(all_links[k].face(plane_thickness), point, element_rows(point, all_links[k].half_length)));
-  factorised_all = factor_of([&](const std::uint32_t link) { return &stiffest[link]; });
+    {
+      of_points[k] =
+        element_stiffness(all_links[k].face(plane_thickness), point, element_rows(point, all_links[k].half_length));
+      stiffnesses[k] = &of_points[k];
+    }
+  factorised_all.emplace(factorise(stiffnesses, regularising_share, boundary_conditions));
 }
 
 template <int dim>
@@ -315,12 +350,9 @@ void Network<dim>::bound_segments()
     {
       const double normal = unit_responses[k].row(0).norm();
       const double shear = unit_responses[k].bottomRows(dim - 1).norm();
-      const double overload = largest_overload(bonds[k], {normal, normal, shear});
-      bounds.push_back({overload, k});
+      bounds.push_back({largest_overload(bonds[k], {normal, normal, shear}), k});
     }
-  std::ranges::sort(bounds, [](const Bound& a, const Bound& b) {
-    return a.overload != b.overload ? a.overload > b.overload : a.segment < b.segment;
-  });
+  std::ranges::stable_sort(bounds, std::greater<>(), &Bound::overload);
 
   touching_strain = std::numeric_limits<double>::infinity();
   std::vector<Unknowns> unit;

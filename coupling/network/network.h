@@ -106,11 +106,10 @@ public:
   /// The same with every pair that may come into contact closed: no state is stiffer.
   const FactorisedNetwork<dim>& factorised_stiffest() const { return *factorised_all; }
   /// Factor with other stiffnesses of the links, and a small stiffness of loose grains.
-  FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double regularising_share,
+  FactorisedNetwork<dim> factorise(const LinkStiffnesses<dim>& stiffnesses, double regularising_share,
                                    std::shared_ptr<const BoundaryConditions<dim>> conditions) const
   {
-    return FactorisedNetwork<dim>(all_links, number_of_grains, std::move(conditions), stiffness_of,
-                                  regularising_share * stiffness_scale);
+    return {all_links, number_of_grains, std::move(conditions), stiffnesses, regularising_share * stiffness_scale};
   }
   /// Forces of each motion times the mean stiffness of its kind; strains give none. They are a scale for motions that
   /// have no stiffness of their own.
@@ -161,8 +160,8 @@ private:
   std::vector<MineralSides> sides; ///< [n_joints] in a rock of minerals
   std::vector<JointStiffness<dim>> bonded_stiffnesses;
 
-  std::unique_ptr<FactorisedNetwork<dim>> factorised;
-  std::unique_ptr<FactorisedNetwork<dim>> factorised_all;
+  std::optional<FactorisedNetwork<dim>> factorised;
+  std::optional<FactorisedNetwork<dim>> factorised_all;
   Motion<dim> stiffness_scale; ///< mean of the diagonal, of each motion of a grain
   Stiffness<dim> c_0;
   Eigen::MatrixXd unit_motion;
@@ -178,4 +177,24 @@ private:
   std::vector<Voigt<dim>> opening_rates; ///< of pairs without a face, per unit strain [m]
   double touching_strain;                ///< norm below which no such pair can come into contact
 };
+
+/// Influence of the boundary of an RVE on its elasticity: the same grains and joints under the weakest and the
+/// strictest hold on their boundary. All other boundaries lie between them; docs/theory.md §9.6.
+template <int dim>
+struct StiffnessBounds
+{
+  Stiffness<dim> minimal_kinematic; ///< [Pa], Voigt with engineering shear; zero where no joint leads over a side
+  Stiffness<dim> affine;            ///< [Pa]
+};
+
+/// Bounds with all bonds intact, of the specimen turned by a rotation.
+template <int dim>
+StiffnessBounds<dim> stiffness_bounds(const Specimen<dim>& specimen,
+                                      const Tensor<dim>& rotation = Tensor<dim>::Identity())
+{
+  const auto stiffness = [&](const BoundaryKind kind) {
+    return Network<dim>(specimen, rotation, {.kind = kind}).intact_stiffness();
+  };
+  return {stiffness(BoundaryKind::minimal_kinematic), stiffness(BoundaryKind::affine)};
+}
 } // namespace feldspar

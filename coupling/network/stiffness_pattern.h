@@ -2,14 +2,13 @@
 
 #include "coupling/network/link.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace feldspar
 {
-/// Places of the stiffness of each link in the matrix of a network's grains, and of the entries of its factor: a block
+/// Places of the stiffnesses of links in the matrix of a network's grains, and of the entries of its factor: a block
 /// for each pair of grains, below the diagonal, column by column. The grains are ordered for little fill (approximate
 /// minimum degree: Amestoy, Davis and Duff 1996).
 class StiffnessPattern
@@ -21,16 +20,6 @@ public:
   StiffnessPattern(const std::vector<Link<dim>>& links, std::size_t n_grains,
                    const std::function<bool(std::uint32_t link)>& bears);
 
-  /// The blocks of a link that has a stiffness. `block` couples both grains, the first in its rows unless it is
-  /// transposed; none where both ends are one grain and its image.
-  struct Place
-  {
-    std::uint32_t first, second;
-    std::uint32_t block;
-    bool is_transposed;
-  };
-  static constexpr std::uint32_t none = std::uint32_t(-1);
-
   std::size_t n_grains() const { return places.size(); }
   std::size_t n_blocks() const { return rows.size(); }
   /// Place of a grain among rows and columns.
@@ -38,13 +27,7 @@ public:
   /// Blocks of a column: from first_block(column) up to that of the next, in rows that ascend.
   std::uint32_t first_block(const std::size_t column) const { return first_blocks[column]; }
   std::uint32_t row(const std::size_t block) const { return rows[block]; }
-  template <int dim>
-  Place place_of(const Link<dim>& link) const
-  {
-    const std::uint32_t first = places[link.grain_1], second = places[link.grain_2];
-    return {first, second, first == second ? none : block_at(std::max(first, second), std::min(first, second)),
-            first < second};
-  }
+  std::uint32_t block_at(std::uint32_t row, std::uint32_t column) const;
 
   std::size_t bytes() const
   {
@@ -63,7 +46,6 @@ public:
 private:
   void find_fill(std::vector<std::vector<std::uint32_t>> columns);
   void find_supernodes();
-  std::uint32_t block_at(std::uint32_t row, std::uint32_t column) const;
 
   std::vector<std::uint32_t> places;
   std::vector<std::uint32_t> first_blocks;  ///< [n_grains + 1]

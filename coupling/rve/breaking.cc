@@ -1,4 +1,6 @@
-#include "coupling/rve/breaking.h"
+// Rules by which segments break; docs/theory.md §9.3.
+
+#include "coupling/rve/equilibrium.h"
 
 #include <algorithm>
 #include <variant>
@@ -17,31 +19,12 @@ double opening_at(const Network<dim>& network, const NetworkHistory<dim>& histor
 {
   return element_rows(network.elements()[i], network.links()[link].half_length).row(0) * history.motion(link, position);
 }
-
-/// History of a segment that has softened; null if it has not.
-template <int dim>
-const SegmentHistory<dim>* softened_segment(const NetworkHistory<dim>& history, const std::uint32_t link,
-                                            const std::uint32_t i)
-{
-  if (!history.is_active(link))
-    return nullptr;
-  const SegmentHistory<dim>& segment = history.active()[history.active_number(link)].segments[i];
-  return segment.has_softened() ? &segment : nullptr;
-}
 } // namespace
 
 template <int dim>
-unsigned int most_events_of_a_bond(const Network<dim>& network, const EquilibriumParameters& parameters)
+std::vector<Overload> Equilibrium<dim>::overloads() const
 {
-  constexpr unsigned int at_its_ends = 2; // half a step each
-  return network.softening_opening().value_or(0.0) > 0.0 ? parameters.softening_steps + at_its_ends : 1;
-}
-
-template <int dim>
-std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Configuration<dim>& present,
-                                const EquilibriumParameters& parameters)
-{
-  const Network<dim>& network = history.network();
+  here();
   std::vector<Overload> result;
   const auto check_softened = [&](const std::uint32_t k, const std::uint32_t i, const SegmentHistory<dim>& old) {
     const double opening = opening_at(network, history, k, i, present.position);
@@ -99,10 +82,9 @@ std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Config
 }
 
 template <int dim>
-double share_until(const std::vector<Overload>& overloads, const NetworkHistory<dim>& history,
-                   const Configuration<dim>& present, const EquilibriumParameters& parameters)
+double Equilibrium<dim>::share_until(const std::vector<Overload>& overloads) const
 {
-  const Network<dim>& network = history.network();
+  here();
   double first = 1.0;
   for (const Overload& overload : overloads)
     {
@@ -114,10 +96,11 @@ double share_until(const std::vector<Overload>& overloads, const NetworkHistory<
       const auto shorten = [&](const auto& law) {
         const auto before = law.strain(rows, history.motion(number, history.position()));
         const auto now = law.strain(rows, history.motion(number, present.position));
-        const SegmentHistory<dim>* const old = softened_segment(history, number, i);
+        const SegmentHistory<dim>* const old =
+          history.is_active(number) ? &history.active()[history.active_number(number)].segments[i] : nullptr;
         const auto holds = [&](const double share) {
           const std::remove_const_t<decltype(now)> strain = before + share * (now - before);
-          if (!old)
+          if (!old || !old->has_softened())
             return !is_overloaded(bond, law.bond_stress(link.face(network.thickness()), strain));
           auto shear_stress = present.balance.active[history.active_number(number)].segments[i].shear_stress;
           for (std::size_t c = 0; c < shear_stress.size(); ++c)
@@ -138,14 +121,8 @@ double share_until(const std::vector<Overload>& overloads, const NetworkHistory<
   return first;
 }
 
-template unsigned int most_events_of_a_bond(const Network<2>&, const EquilibriumParameters&);
-template unsigned int most_events_of_a_bond(const Network<3>&, const EquilibriumParameters&);
-template std::vector<Overload> overloads(const NetworkHistory<2>&, const Configuration<2>&,
-                                         const EquilibriumParameters&);
-template std::vector<Overload> overloads(const NetworkHistory<3>&, const Configuration<3>&,
-                                         const EquilibriumParameters&);
-template double share_until(const std::vector<Overload>&, const NetworkHistory<2>&, const Configuration<2>&,
-                            const EquilibriumParameters&);
-template double share_until(const std::vector<Overload>&, const NetworkHistory<3>&, const Configuration<3>&,
-                            const EquilibriumParameters&);
+template std::vector<Overload> Equilibrium<2>::overloads() const;
+template std::vector<Overload> Equilibrium<3>::overloads() const;
+template double Equilibrium<2>::share_until(const std::vector<Overload>&) const;
+template double Equilibrium<3>::share_until(const std::vector<Overload>&) const;
 } // namespace feldspar

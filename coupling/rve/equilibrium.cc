@@ -1,7 +1,5 @@
 #include "coupling/rve/equilibrium.h"
 
-#include "coupling/rve/work_on_the_way.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -87,27 +85,15 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   const auto is_small = [&] {
     return present.position.template tail<n_voigt<dim>>().cwiseAbs().maxCoeff() <= largest_strain;
   };
-  const auto hand_over = [&] {
-    here();
-    is_balanced = false;
-    return std::move(present);
-  };
-  const auto take = [&](Relaxed<dim>&& relaxed) {
-    present = std::move(relaxed.present);
-    is_balanced = true;
-    iterations += relaxed.n_iterations;
-    return relaxed.balanced;
-  };
-  const Search<dim> search{control, tolerance, gives_up};
   for (unsigned int round = 0;; ++round)
     {
       const Unknowns before = present.position;
-      if (take(relax_by_newton(history, hand_over(), search, parameters.most_iterations, solver)))
+      if (relax_by_newton(control, tolerance))
         return is_small();
       if (round == most_rounds)
         return false;
       stand_at(before);
-      take(relax_by_motion(history, hand_over(), search));
+      relax_by_motion(control, tolerance);
       if (!is_small()) // it flies apart
         return false;
       // With one return map for a long way, the friction of faces that close and slide by turns may leave no
@@ -210,9 +196,8 @@ NetworkState<dim> Equilibrium<dim>::state()
             result.contact_shear[network.links()[link].first_segment + i] = segments[i].shear_stress;
         }
     }
-  const auto by_segment = [](const auto& a, const auto& b) { return a.segment < b.segment; };
-  std::ranges::sort(result.unbonded, by_segment);
-  std::ranges::sort(result.softened, by_segment);
+  std::ranges::sort(result.unbonded, {}, &UnbondedSegment<dim>::segment);
+  std::ranges::sort(result.softened, {}, &SoftenedSegment<dim>::segment);
   return result;
 }
 

@@ -1,9 +1,8 @@
 #include "coupling/rve/explicit_run.h"
 
 #include "base/contains.h"
+#include "base/system/hdf5_archive.h"
 #include "coupling/rve/homogenisation.h"
-#include "coupling/rve/path_checkpoint.h"
-#include "coupling/rve/path_sample.h"
 
 #include <fmt/format.h>
 
@@ -66,7 +65,7 @@ NetworkState<dim> ExplicitRun<dim>::state() const
   std::ranges::copy(sample.stress, result.stress.data());
   for (const auto& crack : path_record.cracks)
     result.unbonded.push_back({intact.network().links()[crack.joint].first_segment + crack.segment, {}});
-  std::ranges::sort(result.unbonded, [](const auto& a, const auto& b) { return a.segment < b.segment; });
+  std::ranges::sort(result.unbonded, {}, &UnbondedSegment<dim>::segment);
   result.intact = result.unbonded.empty();
   result.n_tension_breaks = std::uint32_t(sample.n_tension_cracks);
   result.n_shear_breaks = std::uint32_t(sample.n_shear_cracks);
@@ -169,9 +168,9 @@ void ExplicitRun<dim>::add_sample()
   const Tensor<dim> stress = dynamics.mean_stress();
   const PathSample<dim>& before = path_record.samples.back();
   PathSample<dim> sample = before;
-  std::copy(strain.data(), strain.data() + n_voigt<dim>, sample.strain.begin());
+  std::copy(strain.begin(), strain.end(), sample.strain.begin());
   const Voigt<dim> symmetric = stress_voigt<dim>(stress);
-  std::copy(symmetric.data(), symmetric.data() + n_voigt<dim>, sample.stress.begin());
+  std::copy(symmetric.begin(), symmetric.end(), sample.stress.begin());
   const auto& cracks = path_record.cracks;
   for (std::size_t k = before.n_tension_cracks + before.n_shear_cracks; k < cracks.size(); ++k)
     ++(cracks[k].in_tension ? sample.n_tension_cracks : sample.n_shear_cracks);
@@ -224,8 +223,8 @@ void ExplicitRun<dim>::transfer(Archive& archive)
   archive.value("missing_stress", missing_stress);
   archive.value("n_steps_missing", n_steps_missing);
   archive.value("work_of_contacts", work_of_contacts);
-  archive.bytes("samples", path_record.samples);
-  archive.bytes("cracks", path_record.cracks);
+  archive.array("samples", path_record.samples);
+  archive.array("cracks", path_record.cracks);
   archive.text("failure", path_record.failure);
 }
 

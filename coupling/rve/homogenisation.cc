@@ -8,26 +8,6 @@
 
 namespace feldspar
 {
-namespace
-{
-/// Broken since the start, ascending.
-template <int dim>
-std::vector<std::uint32_t> broken_segments(const Network<dim>& network, const NetworkState<dim>& state)
-{
-  std::vector<std::uint32_t> broken;
-  for (const auto& unbonded : state.unbonded)
-    if (unbonded.segment < network.n_segments() && !std::ranges::binary_search(network.unbonded(), unbonded.segment))
-      broken.push_back(unbonded.segment);
-  return broken;
-}
-} // namespace
-
-template <int dim>
-LinkForces<dim> link_forces(const Network<dim>& network, const NetworkState<dim>& state)
-{
-  return Equilibrium<dim>(network, state, {}).link_forces();
-}
-
 template <int dim>
 Tensor<dim> branch_stress(const Network<dim>& network, const LinkForces<dim>& forces)
 {
@@ -75,17 +55,16 @@ Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryCondition
   const Eigen::VectorXd multipliers = conditions.multipliers(held);
   for (std::size_t p = 0; p < conditions.pieces().size(); ++p)
     for (const auto& pair : conditions.pieces()[p])
-      sum += pair.share * conditions.traction(multipliers, p) *
+      sum += pair.share * multipliers.segment<dim>(dim * Eigen::Index(p)) *
              (network.positions()[pair.image] - network.positions()[pair.owner]).transpose();
   return sum / network.volume();
 }
 
 template <int dim>
-BorneForces<dim> borne_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
-                              LinkForces<dim> of_links)
+BorneForces<dim> borne_forces(const Network<dim>& network, const Equilibrium<dim>& at)
 {
-  BorneForces<dim> forces{std::move(of_links), {}};
-  if (conditions.n_multipliers() > 0)
+  BorneForces<dim> forces{at.link_forces(), {}};
+  if (const auto& conditions = at.conditions(); conditions.n_multipliers() > 0)
     {
       const Eigen::VectorXd multipliers = conditions.multipliers(on_grains(network, forces.of_links));
       forces.of_boundary = Eigen::VectorXd::Zero(network.n_unknowns() - n_voigt<dim>);
@@ -149,8 +128,10 @@ CrackMeasures<dim> crack_measures(const Network<dim>& network, const NetworkStat
       all += network.segment_area(network.links()[j], i);
   double area = 0.0;
   CrackMeasures<dim> result{0.0, 0.0, Tensor<dim>::Zero()};
-  for (const std::uint32_t segment : broken_segments(network, state))
+  for (const auto& [segment, shear_stress] : state.unbonded)
     {
+      if (segment >= network.n_segments() || std::ranges::binary_search(network.unbonded(), segment))
+        continue; // in contact without a face, or unbonded from the start
       const Link<dim>& link = network.links()[network.link_of_segment(segment)];
       const double of_segment = network.segment_area(link, segment - link.first_segment);
       const Vector<dim> normal = link.axes.row(0);
@@ -202,20 +183,18 @@ IsotropicConstants isotropic_constants(const Stiffness<dim>& stiffness)
   return result;
 }
 
-template decltype(link_forces<2>) link_forces<2>;
 template decltype(branch_stress<2>) branch_stress<2>;
 template decltype(boundary_stress<2>) boundary_stress<2>;
-template BorneForces<2> borne_forces(const Network<2>&, const BoundaryConditions<2>&, LinkForces<2>);
+template decltype(borne_forces<2>) borne_forces<2>;
 template decltype(hill_mandel_residual<2>) hill_mandel_residual<2>;
 template decltype(fabric<2>) fabric<2>;
 template SegmentPlace<2> segment_place<2>(const Network<2>&, std::size_t, std::size_t);
 template decltype(crack_measures<2>) crack_measures<2>;
 template decltype(n_fragments<2>) n_fragments<2>;
 template decltype(isotropic_constants<2>) isotropic_constants<2>;
-template decltype(link_forces<3>) link_forces<3>;
 template decltype(branch_stress<3>) branch_stress<3>;
 template decltype(boundary_stress<3>) boundary_stress<3>;
-template BorneForces<3> borne_forces(const Network<3>&, const BoundaryConditions<3>&, LinkForces<3>);
+template decltype(borne_forces<3>) borne_forces<3>;
 template decltype(hill_mandel_residual<3>) hill_mandel_residual<3>;
 template decltype(fabric<3>) fabric<3>;
 template SegmentPlace<3> segment_place<3>(const Network<3>&, std::size_t, std::size_t);

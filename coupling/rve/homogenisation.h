@@ -8,10 +8,6 @@
 /// Transition from grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar
 {
-/// Forces of the links of a network in small strains, at one of its states.
-template <int dim>
-LinkForces<dim> link_forces(const Network<dim>& network, const NetworkState<dim>& state);
-
 /// σ = (1/V) Σ f ⊗ l over all links [Pa]; symmetric where couples balance (Love 1927, Weber 1966).
 template <int dim>
 Tensor<dim> branch_stress(const Network<dim>& network, const LinkForces<dim>& forces);
@@ -31,8 +27,7 @@ struct BorneForces
 };
 
 template <int dim>
-BorneForces<dim> borne_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
-                              LinkForces<dim> of_links);
+BorneForces<dim> borne_forces(const Network<dim>& network, const Equilibrium<dim>& at);
 
 /// Hill and Mandel: |V σ̄ : Δε + r̄·Δu - Σ s̄·Δm| over the sum of the magnitudes, or over `least_work` [J] if that is more,
 /// between two states, with the mean of the works that the forces of each would do on the motions m of links as they stand

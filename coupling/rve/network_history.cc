@@ -21,21 +21,15 @@ NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkSt
   , position_at_event(unknowns_of(network, state))
   , bearing(network.conditions())
 {
+  const auto activated = [&](const std::uint32_t segment) -> SegmentHistory<dim>& {
+    const std::uint32_t link = network.link_of_segment(segment);
+    return activate(link).segments[segment - network.links()[link].first_segment];
+  };
   for (const auto& unbonded : state.unbonded)
-    {
-      const std::uint32_t link = network.link_of_segment(unbonded.segment);
-      auto& segment = activate(link).segments[unbonded.segment - network.links()[link].first_segment];
-      segment.bonded = false;
-      segment.shear_stress = unbonded.shear_stress;
-    }
+    activated(unbonded.segment) = {false, unbonded.shear_stress};
   release_loose_pairs();
   for (const auto& softened : state.softened)
-    {
-      const std::uint32_t link = network.link_of_segment(softened.segment);
-      auto& segment = activate(link).segments[softened.segment - network.links()[link].first_segment];
-      segment.shear_stress = softened.shear_stress;
-      segment.more = softened.more;
-    }
+    activated(softened.segment) = {true, softened.shear_stress, softened.more};
   if (network.is_linear_while_bonded())
     return;
   for (std::uint32_t link = 0; link < network.n_joints(); ++link)

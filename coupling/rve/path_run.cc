@@ -1,7 +1,8 @@
 #include "coupling/rve/path_run.h"
 
 #include "base/parallel.h"
-#include "coupling/rve/path_checkpoint.h"
+#include "base/parameter_id.h"
+#include "base/system/hdf5_archive.h"
 #include "coupling/rve/rve_file.h"
 #include "coupling/rve/state_archive.h"
 
@@ -12,17 +13,6 @@
 
 namespace feldspar
 {
-namespace
-{
-template <int dim>
-std::array<double, n_voigt<dim>> as_array(const Voigt<dim>& voigt)
-{
-  std::array<double, n_voigt<dim>> result;
-  std::copy(voigt.data(), voigt.data() + voigt.size(), result.begin());
-  return result;
-}
-} // namespace
-
 template <int dim>
 std::string describe(const Control<dim>& control)
 {
@@ -80,6 +70,27 @@ double PathSample<dim>::energy_imbalance() const
   return size > 0.0 ? std::abs(unaccounted()) / size : 0.0;
 }
 
+void write_path_checkpoint(const std::filesystem::path& file, const std::string& identity,
+                           const std::function<void(Hdf5Writer&)>& transfer)
+{
+  write_hdf5(file, [&](Hdf5Writer& root) {
+    std::string of_run = identity;
+    root.text("identity", of_run);
+    transfer(root);
+  });
+}
+
+void read_path_checkpoint(const std::filesystem::path& file, const std::string& identity,
+                          const std::function<void(Hdf5Reader&)>& transfer)
+{
+  read_hdf5(file, "a checkpoint of " + in_words(Work::strain_path), [&](Hdf5Reader& root) {
+    std::string of_run;
+    root.text("identity", of_run);
+    if (of_run != identity)
+      throw InputError("of another input or program");
+    transfer(root);
+  });
+}
 template <int dim>
 PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> wanted_legs,
                       const PathParameters& wanted, const std::optional<NetworkState<dim>>& begin)
@@ -90,7 +101,7 @@ PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<P
   if (begin)
     {
       body.restore(*begin);
-      forces = forces_at(body.state());
+      forces = borne_forces(body.network(), Equilibrium<dim>(body.network(), *begin, parameters.equilibrium));
       add(evaluate(*begin, *begin, 0.0));
     }
   else
@@ -139,11 +150,7 @@ template <int dim>
 void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
 {
   const auto options = [&](const Bonds bonds, const double share_of_tolerance = 1.0) {
-    TrialOptions<dim> with;
-    with.bonds = bonds;
-    with.share_of_tolerance = share_of_tolerance;
-    with.gives_up = gives_up;
-    return with;
+    return TrialOptions<dim>{.bonds = bonds, .share_of_tolerance = share_of_tolerance, .gives_up = gives_up};
   };
   // An increment goes to the next mark of its own kind, also from where a break was found between two.
   const std::uint64_t longest = std::uint64_t(1) << (parameters.most_cuts - cuts);
@@ -237,10 +244,10 @@ typename PathRun<dim>::Evaluation PathRun<dim>::evaluate(const NetworkState<dim>
 {
   const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
   Evaluation evaluated;
-  evaluated.forces = borne_forces(body.network(), equilibrium.conditions(), equilibrium.link_forces());
+  evaluated.forces = borne_forces(body.network(), equilibrium);
   auto& sample = evaluated.sample;
-  sample.strain = as_array<dim>(state.strain);
-  sample.stress = as_array<dim>(state.stress);
+  std::copy(state.strain.begin(), state.strain.end(), sample.strain.begin());
+  std::copy(state.stress.begin(), state.stress.end(), sample.stress.begin());
   sample.n_tension_cracks = state.n_tension_breaks;
   sample.n_shear_cracks = state.n_shear_breaks;
   sample.work = state.work;
@@ -264,13 +271,6 @@ void PathRun<dim>::add(Evaluation&& evaluated)
 {
   path_record.samples.push_back(evaluated.sample);
   forces = std::move(evaluated.forces);
-}
-
-template <int dim>
-BorneForces<dim> PathRun<dim>::forces_at(const NetworkState<dim>& state) const
-{
-  const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
-  return borne_forces(body.network(), equilibrium.conditions(), equilibrium.link_forces());
 }
 
 template <int dim>
@@ -302,11 +302,11 @@ void PathRun<dim>::transfer(Archive& archive)
   archive.value("position", position);
   archive.value("cuts", cuts);
   transfer_flag(archive, "next_is_short", next_is_short);
-  archive.bytes("samples", path_record.samples);
-  archive.bytes("cracks", path_record.cracks);
+  archive.array("samples", path_record.samples);
+  archive.array("cracks", path_record.cracks);
   archive.text("failure", path_record.failure);
   if constexpr (Archive::reads)
-    forces = forces_at(body.state());
+    forces = borne_forces(body.network(), Equilibrium<dim>(body.network(), state, parameters.equilibrium));
 }
 
 template <int dim>

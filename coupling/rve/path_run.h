@@ -10,6 +10,9 @@
 /// A representative volume that follows a path of strains and stresses.
 namespace feldspar
 {
+class Hdf5Reader;
+class Hdf5Writer;
+
 /// A straight stretch of a path: what is given moves in proportion from where it stands to the target.
 template <int dim>
 struct PathLeg
@@ -68,6 +71,13 @@ struct PathRecord
   std::string failure; ///< why the path was not gone to its end; empty if it was
 };
 
+/// Checkpoints of a path, whichever solver goes it. Reading throws InputError where the file is damaged or has another
+/// identity.
+void write_path_checkpoint(const std::filesystem::path& file, const std::string& identity,
+                           const std::function<void(Hdf5Writer&)>& transfer);
+void read_path_checkpoint(const std::filesystem::path& file, const std::string& identity,
+                          const std::function<void(Hdf5Reader&)>& transfer);
+
 /// Goes along a path, increment by increment. An increment that finds no equilibrium is cut in half; one that finds none
 /// however small ends the path there, with the state before it kept.
 template <int dim>
@@ -106,7 +116,6 @@ private:
   Evaluation evaluate(const NetworkState<dim>& state, const NetworkState<dim>& before, double unbalanced_ratio,
                       double least_work = 0.0) const;
   void add(Evaluation&& evaluated);
-  BorneForces<dim> forces_at(const NetworkState<dim>& state) const;
   template <typename Archive>
   void transfer(Archive& archive);
 

@@ -1,6 +1,7 @@
-#include "coupling/rve/relaxation.h"
+// Two ways to where the forces of a network balance, bonds frozen; docs/theory.md §9.3.
 
 #include "base/parallel.h"
+#include "coupling/rve/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,13 +44,10 @@ double measure(const Balance<dim>& of, const Control<dim>& control)
 /// is the stiffness with all possible contacts closed, so that no mode is faster than a step: with the intact one
 /// grains that no joint holds had none, and flew off once they were hit.
 template <int dim>
-Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search)
+void Equilibrium<dim>::relax_by_motion(const Control<dim>& control, const double tolerance)
 {
-  const Control<dim>& control = search.control;
-  const double tolerance = search.tolerance;
-  const Network<dim>& network = history.network();
-  Unknowns& position = from.position;
-  Balance<dim>& present = from.balance;
+  here();
+  Balance<dim>& balance = present.balance;
   constexpr unsigned int most_steps = 1000;
   constexpr double first_time_step = 0.3;
   constexpr double longest_time_step = 1.0; // over the inverse frequency of the stiffest modes
@@ -60,11 +58,10 @@ Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<d
   double time_step = first_time_step;
   double turn = first_turn;
   unsigned int n_downhill = 0;
-  unsigned int k = 0;
-  for (; k < most_steps && !(measure(present, control) <= tolerance); ++k)
+  for (unsigned int k = 0; k < most_steps && !(measure(balance, control) <= tolerance); ++k)
     {
-      leave_if(search.gives_up);
-      const Unknowns force = unbalanced(network, present, control);
+      leave_if(gives_up);
+      const Unknowns force = unbalanced(network, balance, control);
       const Unknowns acceleration = history.factorised_stiffest().solve(force, control.stress_given);
       if (force.dot(velocity) > 0.0)
         {
@@ -87,26 +84,18 @@ Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<d
         }
       velocity += time_step * acceleration;
       momentum += time_step * force;
-      position += time_step * velocity;
-      present = history.balance(position, std::move(present));
+      present.position += time_step * velocity;
+      balance = history.balance(present.position, std::move(balance));
     }
-  const bool balanced = measure(present, control) <= tolerance;
-  return {std::move(from), balanced, k};
 }
 
 template <int dim>
-Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search,
-                             const unsigned int most_iterations, TangentSolver<dim>& solver)
+bool Equilibrium<dim>::relax_by_newton(const Control<dim>& control, const double tolerance)
 {
-  const Control<dim>& control = search.control;
-  const double tolerance = search.tolerance;
-  const Network<dim>& network = history.network();
-  Unknowns& position = from.position;
-  Balance<dim>& present = from.balance;
-  unsigned int iterations = 0;
-  const auto ended = [&](const bool balanced) { return Relaxed<dim>{std::move(from), balanced, iterations}; };
+  here();
+  Balance<dim>& balance = present.balance;
   const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
-  double error = measure(present, control);
+  double error = measure(balance, control);
   double step_share = 1.0;
   unsigned int n_long_steps = 0;
   // A little farther than asked, where that is to be had at once: loose grains move far, and what is left unbalanced does
@@ -118,22 +107,21 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
   for (unsigned int k = 0; !(error <= 0.01 * tolerance); ++k)
     {
       if (error <= tolerance && n_refinements++ == most_refinements)
-        return ended(true);
-      if (k == most_iterations)
-        return ended(error <= tolerance);
-      leave_if(search.gives_up);
-      ++iterations;
+        return true;
+      if (k == parameters.most_iterations)
+        return error <= tolerance;
+      leave_if(gives_up);
       const auto is_symmetric = [](const LinkResponse<dim>& response) {
         constexpr double round_off = 1e-12;
         return response.derivative.isApprox(response.derivative.transpose(), round_off);
       };
       const bool symmetric =
-        std::ranges::all_of(present.active, is_symmetric) &&
-        std::ranges::all_of(present.touches, [&](const auto& touch) { return is_symmetric(touch.second); });
-      const Unknowns right = unbalanced(network, present, control);
+        std::ranges::all_of(balance.active, is_symmetric) &&
+        std::ranges::all_of(balance.touches, [&](const auto& touch) { return is_symmetric(touch.second); });
+      const Unknowns right = unbalanced(network, balance, control);
       const auto apply = [&](const Unknowns& x) {
-        Unknowns y = apply_tangent(history, present, x, &LinkResponse<dim>::derivative) +
-                     regularising_stiffness * network.regularising_forces(x);
+        Unknowns y =
+          apply_tangent(x, &LinkResponse<dim>::derivative) + regularising_stiffness * network.regularising_forces(x);
         for (int c = 0; c < n_voigt<dim>; ++c)
           if (!control.stress_given[c])
             y[n_own + c] = 0.0;
@@ -141,9 +129,8 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
       };
       // Far from the goal contacts change more than a precise step would gain.
       const double precision = std::clamp(0.01 * tolerance / error, 1e-10, 1e-2);
-      Unknowns step = step_share > 0.1
-                        ? solver.solve(history, present, apply, symmetric, right, control.stress_given, precision)
-                        : history.factorised_stiffest().solve(right, control.stress_given);
+      Unknowns step = step_share > 0.1 ? solve(apply, symmetric, right, control.stress_given, precision)
+                                       : history.factorised_stiffest().solve(right, control.stress_given);
       const double longest = longest_step * network.mean_branch();
       double largest = 0.0;
       for (std::size_t i = 0; i < network.n_grains(); ++i)
@@ -151,9 +138,9 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
       if (largest > longest)
         {
           if (error <= tolerance) // a loose grain: there is nothing to refine
-            return ended(true);
+            return true;
           if (++n_long_steps > most_long_steps)
-            return ended(false);
+            return false;
           step *= longest / largest;
         }
 
@@ -162,26 +149,24 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
       double trial_error = 0.0;
       for (; share > 0.05; share *= 0.5)
         {
-          trial = position + share * step;
+          trial = present.position + share * step;
           trial_balance = history.balance(trial, std::move(trial_balance));
           trial_error = measure(trial_balance, control);
           if (trial_error < error)
             break;
         }
       if (error <= tolerance && !(trial_error < error))
-        return ended(true);
+        return true;
       step_share = trial_error < error ? 1.0 : step_share > 0.1 ? 0.05 : 1.0;
-      position.swap(trial);
-      std::swap(present, trial_balance);
+      present.position.swap(trial);
+      std::swap(balance, trial_balance);
       error = trial_error;
     }
-  return ended(true);
+  return true;
 }
 
-template Relaxed<2> relax_by_newton(const NetworkHistory<2>&, Configuration<2>, const Search<2>&, unsigned int,
-                                    TangentSolver<2>&);
-template Relaxed<3> relax_by_newton(const NetworkHistory<3>&, Configuration<3>, const Search<3>&, unsigned int,
-                                    TangentSolver<3>&);
-template Relaxed<2> relax_by_motion(const NetworkHistory<2>&, Configuration<2>, const Search<2>&);
-template Relaxed<3> relax_by_motion(const NetworkHistory<3>&, Configuration<3>, const Search<3>&);
+template bool Equilibrium<2>::relax_by_newton(const Control<2>&, double);
+template bool Equilibrium<3>::relax_by_newton(const Control<3>&, double);
+template void Equilibrium<2>::relax_by_motion(const Control<2>&, double);
+template void Equilibrium<3>::relax_by_motion(const Control<3>&, double);
 } // namespace feldspar

@@ -72,10 +72,7 @@ public:
   Trial<dim> trial(const Control<dim>& control, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const
   {
-    TrialOptions<dim> options;
-    options.bonds = bonds;
-    options.with_tangent = with_tangent;
-    return trial(control, options);
+    return trial(control, {.bonds = bonds, .with_tangent = with_tangent});
   }
   Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const

@@ -26,8 +26,6 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
   std::size_t n_segments = network.n_segments();
   for (const Link<dim>& link : network.links())
     n_segments = std::max(n_segments, std::size_t(link.first_segment) + link.n_segments);
-  const auto by_segment = [](const auto& a, const auto& b) { return a.segment < b.segment; };
-  const auto not_ascending = [](const auto& a, const auto& b) { return a.segment >= b.segment; };
   const auto is_finite = [](const auto& values) {
     return std::ranges::all_of(values, [](const double value) { return std::isfinite(value); });
   };
@@ -47,9 +45,11 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
          (state.intact || !state.motions.empty()) && state.stress.allFinite() && state.strain.allFinite() &&
          state.strain.cwiseAbs().maxCoeff() <= largest_strain && std::ranges::all_of(state.unbonded, is_of_network) &&
          std::ranges::all_of(state.softened, is_softened) &&
-         std::ranges::adjacent_find(state.softened, not_ascending) == state.softened.end() &&
+         std::ranges::adjacent_find(state.softened, std::greater_equal<>(), &SoftenedSegment<dim>::segment) ==
+           state.softened.end() &&
          (state.contact_shear.empty() || state.contact_shear.size() == network.n_segments()) &&
-         std::ranges::all_of(state.contact_shear, is_finite) && std::ranges::is_sorted(state.unbonded, by_segment);
+         std::ranges::all_of(state.contact_shear, is_finite) &&
+         std::ranges::is_sorted(state.unbonded, {}, &UnbondedSegment<dim>::segment);
 }
 
 template <int dim>

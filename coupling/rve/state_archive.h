@@ -18,14 +18,14 @@ void transfer(Archive& archive, NetworkState<dim>& state)
     }
   transfer_flag(archive, "intact", state.intact);
   archive.array("motions", state.motions);
-  archive.bytes("unbonded", state.unbonded);
+  archive.array("unbonded", state.unbonded);
   // Files of version 0.2.0 know flat joints alone, and for a while bonds did not soften from event to event. Plain bytes are
   // always of this version.
   const auto transfer_if_there = [&](const char* name, auto& values) {
     if constexpr (requires { archive.has(""); })
       if (!archive.has(name))
         return;
-    archive.bytes(name, values);
+    archive.array(name, values);
   };
   transfer_if_there("contact_shear", state.contact_shear);
   transfer_if_there("softened", state.softened);

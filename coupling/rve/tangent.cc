@@ -1,7 +1,8 @@
-#include "coupling/rve/tangent.h"
+// The linear equations of a network with bonds and open, stick and slip states frozen; docs/theory.md §9.4.
 
 #include "base/checksum/fingerprint.h"
 #include "coupling/network/conjugate_gradients.h"
+#include "coupling/rve/equilibrium.h"
 
 #include <algorithm>
 #include <array>
@@ -10,11 +11,13 @@
 
 namespace feldspar
 {
-template <int dim, typename Columns>
-Columns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Columns& unknowns,
-                      JointStiffness<dim> LinkResponse<dim>::*const which)
+/// Forces on grains, and volume × stress, for small motions from where the network stands: Unknowns or UnitUnknowns.
+template <int dim>
+template <typename Columns>
+Columns Equilibrium<dim>::apply_tangent(const Columns& unknowns,
+                                        JointStiffness<dim> LinkResponse<dim>::*const which) const
 {
-  const Network<dim>& network = history.network();
+  const Balance<dim>& at = here().balance;
   const auto& links = network.links();
   Columns result = Columns::Zero(network.n_unknowns(), unknowns.cols());
   const auto add = [&](const std::uint32_t k, const JointStiffness<dim>& stiffness) {
@@ -34,33 +37,26 @@ Columns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at
 }
 
 template <int dim>
-std::vector<JointStiffness<dim>> link_tangents(const NetworkHistory<dim>& history, const Balance<dim>& at)
+LinkStiffnesses<dim> Equilibrium<dim>::link_tangents() const
 {
-  const Network<dim>& network = history.network();
-  std::vector<JointStiffness<dim>> tangents(network.links().size(), JointStiffness<dim>::Zero());
-  for (std::uint32_t k = 0; k < tangents.size(); ++k)
-    if (history.is_active(k))
-      tangents[k] = at.active[history.active_number(k)].tangent;
-    else if (k < network.n_joints())
-      tangents[k] = network.bonded_stiffness(k);
+  const Balance<dim>& at = here().balance;
+  LinkStiffnesses<dim> tangents(network.links().size(), nullptr);
+  for (std::uint32_t k = 0; k < network.n_joints(); ++k)
+    tangents[k] = &network.bonded_stiffness(k);
+  for (std::size_t a = 0; a < history.active().size(); ++a)
+    {
+      const JointStiffness<dim>& tangent = at.active[a].tangent;
+      tangents[history.active()[a].link] = tangent.isZero(0.0) ? nullptr : &tangent; // of an open one, nothing
+    }
   for (const auto& [k, touch] : at.touches)
-    tangents[k] = touch.tangent;
+    tangents[k] = &touch.tangent;
   return tangents;
 }
 
 template <int dim>
-Stiffness<dim> affine_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at)
+std::uint64_t Equilibrium<dim>::states_of_tangent() const
 {
-  constexpr int n = n_voigt<dim>;
-  const Network<dim>& network = history.network();
-  UnitUnknowns<dim> units = UnitUnknowns<dim>::Zero(network.n_unknowns(), UnitUnknowns<dim>::ColsAtCompileTime);
-  units.template bottomLeftCorner<n, n>().setIdentity();
-  return apply_tangent(history, at, units).template bottomLeftCorner<n, n>() / network.volume();
-}
-
-template <int dim>
-std::uint64_t states_of_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at)
-{
+  const Balance<dim>& at = here().balance;
   Fingerprint print;
   const auto add = [&](const std::uint32_t link, const JointStiffness<dim>& tangent) {
     print.add(link);
@@ -75,12 +71,13 @@ std::uint64_t states_of_tangent(const NetworkHistory<dim>& history, const Balanc
   return print.value();
 }
 
+/// The solution by conjugate gradients with some network that was factorised: the intact one at first. The present one is
+/// factorised once that has cost as many iterations more as factorising does. solve_with(network, most_iterations): a
+/// LinearSolution by conjugate gradients with that network.
 template <int dim>
 template <typename SolveWith>
-auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Balance<dim>& at,
-                                  const SolveWith& solve_with)
+auto Equilibrium<dim>::solution(const SolveWith& solve_with)
 {
-  const Network<dim>& network = history.network();
   if (const auto& nearby = kept.network ? *kept.network : network.factorised_intact();
       nearby.conditions() != history.conditions())
     kept.network = std::make_shared<const FactorisedNetwork<dim>>(nearby.under(history.conditions()));
@@ -94,18 +91,8 @@ auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Bala
           return found.x;
         }
     }
-  std::vector<const JointStiffness<dim>*> stiffnesses(network.links().size(), nullptr);
-  for (std::uint32_t k = 0; k < network.n_joints(); ++k)
-    stiffnesses[k] = &network.bonded_stiffness(k);
-  for (std::size_t a = 0; a < history.active().size(); ++a)
-    {
-      const JointStiffness<dim>& tangent = at.active[a].tangent;
-      stiffnesses[history.active()[a].link] = tangent.isZero(0.0) ? nullptr : &tangent; // of an open one, nothing
-    }
-  for (const auto& [k, touch] : at.touches)
-    stiffnesses[k] = &touch.tangent;
-  kept.network = std::make_shared<const FactorisedNetwork<dim>>(network.factorise(
-    [&](const std::uint32_t link) { return stiffnesses[link]; }, regularising_stiffness, history.conditions()));
+  kept.network = std::make_shared<const FactorisedNetwork<dim>>(
+    network.factorise(link_tangents(), regularising_stiffness, history.conditions()));
   constexpr unsigned int most_iterations = 400;
   auto found = solve_with(*kept.network, most_iterations);
   kept.n_fresh_iterations = found.n_iterations;
@@ -113,13 +100,13 @@ auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Bala
   return found.x;
 }
 
+/// The solution, to a tolerance, with `apply`, which is near the tangent.
 template <int dim>
-Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
-                                   const std::function<Unknowns(const Unknowns&)>& apply, const bool symmetric,
-                                   const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
-                                   const double tolerance)
+Unknowns Equilibrium<dim>::solve(const std::function<Unknowns(const Unknowns&)>& apply, const bool symmetric,
+                                 const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
+                                 const double tolerance)
 {
-  return solution(history, at, [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
+  return solution([&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
     const auto precondition = [&](const Unknowns& r) { return with.solve(r, strain_is_free); };
     return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations)
                      : bi_conjugate_gradients(apply, precondition, right, tolerance, (most_iterations + 1) / 2);
@@ -127,12 +114,11 @@ Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Bal
 }
 
 template <int dim>
-Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, const Balance<dim>& at)
+Stiffness<dim> Equilibrium<dim>::tangent()
 {
   constexpr int n = n_voigt<dim>;
   constexpr int n_columns = UnitUnknowns<dim>::ColsAtCompileTime;
-  const Network<dim>& network = history.network();
-  if (history.active().empty() && at.touches.empty())
+  if (is_intact())
     return network.intact_stiffness();
   const Eigen::Index n_own = network.n_unknowns() - n;
   // The search begins with the intact network's rearrangement. The forces that this leaves unbalanced may be no more
@@ -148,33 +134,33 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
       least[k] = error_of_motions * std::sqrt(network.volume() * network.intact_stiffness()(k, k));
     }
   const auto apply = [&](const UnitUnknowns<dim>& x) {
-    UnitUnknowns<dim> y = apply_tangent(history, at, x);
+    UnitUnknowns<dim> y = apply_tangent(x, &LinkResponse<dim>::tangent);
     y.template bottomRows<n>().setZero();
     return y;
   };
   const UnitUnknowns<dim> right = -apply(units);
   units.topRows(n_own) +=
-    solution(history, at, [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
+    solution([&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
       const auto precondition = [&](const UnitUnknowns<dim>& r) { return with.solve_with_strain_held(r); };
       return conjugate_gradients(apply, precondition, right, 0.0, most_iterations, least);
     }).topRows(n_own);
-  const UnitUnknowns<dim> forces = apply_tangent(history, at, units);
+  const UnitUnknowns<dim> forces = apply_tangent(units, &LinkResponse<dim>::tangent);
   // The product does without Eigen's blocks, whose size is that of the processor's cache.
   const Stiffness<dim> result =
     units.template leftCols<n>().transpose().lazyProduct(forces.template leftCols<n>()) / network.volume();
   return result.template selfadjointView<Eigen::Upper>(); // to the last bit
 }
 
-template class TangentSolver<2>;
-template class TangentSolver<3>;
-template Unknowns apply_tangent(const NetworkHistory<2>&, const Balance<2>&, const Unknowns&,
-                                JointStiffness<2> LinkResponse<2>::*);
-template Unknowns apply_tangent(const NetworkHistory<3>&, const Balance<3>&, const Unknowns&,
-                                JointStiffness<3> LinkResponse<3>::*);
-template std::vector<JointStiffness<2>> link_tangents(const NetworkHistory<2>&, const Balance<2>&);
-template std::vector<JointStiffness<3>> link_tangents(const NetworkHistory<3>&, const Balance<3>&);
-template Stiffness<2> affine_tangent(const NetworkHistory<2>&, const Balance<2>&);
-template Stiffness<3> affine_tangent(const NetworkHistory<3>&, const Balance<3>&);
-template std::uint64_t states_of_tangent(const NetworkHistory<2>&, const Balance<2>&);
-template std::uint64_t states_of_tangent(const NetworkHistory<3>&, const Balance<3>&);
+template Unknowns Equilibrium<2>::apply_tangent(const Unknowns&, JointStiffness<2> LinkResponse<2>::*) const;
+template Unknowns Equilibrium<3>::apply_tangent(const Unknowns&, JointStiffness<3> LinkResponse<3>::*) const;
+template LinkStiffnesses<2> Equilibrium<2>::link_tangents() const;
+template LinkStiffnesses<3> Equilibrium<3>::link_tangents() const;
+template std::uint64_t Equilibrium<2>::states_of_tangent() const;
+template std::uint64_t Equilibrium<3>::states_of_tangent() const;
+template Unknowns Equilibrium<2>::solve(const std::function<Unknowns(const Unknowns&)>&, bool, const Unknowns&,
+                                        const std::array<bool, 3>&, double);
+template Unknowns Equilibrium<3>::solve(const std::function<Unknowns(const Unknowns&)>&, bool, const Unknowns&,
+                                        const std::array<bool, 6>&, double);
+template Stiffness<2> Equilibrium<2>::tangent();
+template Stiffness<3> Equilibrium<3>::tangent();
 } // namespace feldspar

@@ -1,4 +1,4 @@
-#include "coupling/rve/work_on_the_way.h"
+#include "coupling/rve/network_history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,19 +14,13 @@ constexpr double least_work = 1e-8;       // of all links together: below this s
 constexpr unsigned int most_halvings = 9; // of a way
 
 /// Way of the network from the last event, for grains and strain apart.
-class Way
+struct Way
 {
-public:
-  Way(const Unknowns& its_from, const Unknowns& its_to, Unknowns its_grains, Unknowns its_strain)
-    : of_grains(std::move(its_grains))
-    , of_strain(std::move(its_strain))
-    , from(its_from)
-    , to(its_to)
-  {
-  }
-
+  const Unknowns& from;
+  const Unknowns& to;
   const Unknowns of_grains; ///< without strain
   const Unknowns of_strain; ///< without motions
+  std::map<double, Unknowns> between = {};
 
   /// Position of the network at a share of the way; all links halve the way at the same places.
   const Unknowns& position(const double share)
@@ -36,11 +30,6 @@ public:
     const auto found = between.find(share);
     return found != between.end() ? found->second : between.emplace(share, from + share * (to - from)).first->second;
   }
-
-private:
-  const Unknowns& from;
-  const Unknowns& to;
-  std::map<double, Unknowns> between;
 };
 
 /// A link somewhere on the way.
@@ -161,12 +150,8 @@ private:
   /// Returns whether the link has the same states at both ends and nothing slid between them.
   bool stays_linear(const LinkResponse<dim>& from, const LinkResponse<dim>& to) const
   {
-    if (from.tangent != to.tangent)
-      return false;
-    for (std::size_t i = 0; i < to.segments.size(); ++i)
-      if (from.segments[i].slip != to.segments[i].slip)
-        return false;
-    return true;
+    constexpr auto slip = &SegmentResponse<dim>::slip;
+    return from.tangent == to.tangent && std::ranges::equal(from.segments, to.segments, {}, slip, slip);
   }
 
   /// Halves the way until its work makes no difference. The balance alone does not see slip that is counted wrong: as
@@ -206,7 +191,7 @@ NetworkWork work_on_the_way(const NetworkHistory<dim>& history, const Balance<di
   of_strain.template tail<n_voigt<dim>>() = of_grains.template tail<n_voigt<dim>>();
   of_grains.template tail<n_voigt<dim>>().setZero();
   history.conditions()->project(of_grains); // what the boundary carries does no work
-  Way way(history.position(), present.position, std::move(of_grains), std::move(of_strain));
+  Way way{history.position(), present.position, std::move(of_grains), std::move(of_strain)};
 
   // All links by one trapezoid, then what is missing of those that it does not have exactly.
   NetworkWork work;

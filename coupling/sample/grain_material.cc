@@ -30,31 +30,32 @@ GrainPoint<dim>::GrainPoint(std::shared_ptr<const Network<dim>> network, const T
     strain_to_rve.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
 }
 
+/// Tries a strain in the axes of the RVE with the factor of the trial before. The search begins where that ended.
 template <int dim>
-Voigt<dim> GrainPoint<dim>::to_rve(const Voigt<dim>& strain) const
+Trial<dim> GrainPoint<dim>::tried_at_work(const Voigt<dim>& strain, TrialOptions<dim> options) const
 {
-  return strain_to_rve * strain;
+  options.factorised = factorised;
+  if (tried_strain && !tried.state.motions.empty())
+    options.nearby = &tried.state;
+  Trial<dim> trial = at_work.trial(strain_control<dim>(strain), options);
+  const KeptFactor<dim> last = std::exchange(trial.factorised, {});
+  if (keeps_factors)
+    factorised = last;
+  return trial;
 }
 
 template <int dim>
 fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
 {
-  const Voigt<dim> wanted = to_rve(strain);
+  const Voigt<dim> wanted = strain_to_rve * strain;
   if (!tried_strain || *tried_strain != wanted)
     {
-      TrialOptions<dim> options;
-      options.bonds = Bonds::frozen;
-      options.with_tangent = true;
-      options.provisional = true;
-      options.factorised = factorised;
-      options.tangent = last_tangent;
-      options.gives_up = gives_up;
-      const NetworkState<dim> nearby = std::move(tried.state);
-      if (tried_strain && !nearby.motions.empty())
-        options.nearby = &nearby;
-      tried = at_work.trial(strain_control<dim>(wanted), options);
+      tried = tried_at_work(wanted, {.bonds = Bonds::frozen,
+                                     .with_tangent = true,
+                                     .provisional = true,
+                                     .tangent = last_tangent,
+                                     .gives_up = gives_up});
       tried_strain = wanted;
-      take_factor_of(tried);
       if (tried.tangent && !at_work.state().intact)
         last_tangent = tried.tangent;
     }
@@ -65,41 +66,18 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
           strain_to_rve.transpose() * tried.tangent->value * strain_to_rve};
 }
 
-/// Searches an equilibrium from where Newton's method was last.
-template <int dim>
-Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds,
-                                   const std::function<bool()>& leaves) const
-{
-  TrialOptions<dim> options;
-  options.bonds = bonds;
-  options.factorised = factorised;
-  options.gives_up = leaves;
-  if (tried_strain && !tried.state.motions.empty())
-    options.nearby = &tried.state;
-  Trial<dim> settled = at_work.trial(strain_control<dim>(to_rve(strain)), options);
-  take_factor_of(settled);
-  return settled;
-}
-
-template <int dim>
-void GrainPoint<dim>::take_factor_of(Trial<dim>& trial) const
-{
-  const KeptFactor<dim> last = std::exchange(trial.factorised, {});
-  if (keeps_factors)
-    factorised = last;
-}
-
 template <int dim>
 fem::PointEvents<dim> GrainPoint<dim>::relax(const Voigt<dim>& strain, const Bonds bonds)
 {
-  Trial<dim> broken = settle(strain, bonds, gives_up);
+  const Voigt<dim> wanted = strain_to_rve * strain;
+  Trial<dim> broken = tried_at_work(wanted, {.bonds = bonds, .gives_up = gives_up});
   if (!broken.in_equilibrium)
     throw fem::PointFailure("the grains of an RVE find no equilibrium after a break");
   const std::size_t n_events = broken.n_loosened;
   const Voigt<dim> stress = strain_to_rve.transpose() * broken.state.stress;
   if (n_events == 0)
     {
-      stable = {to_rve(strain), std::move(broken)};
+      stable = {wanted, std::move(broken)};
       return {0, stress};
     }
   events_at_work.insert(events_at_work.end(), broken.breaks.begin(), broken.breaks.end());
@@ -112,9 +90,9 @@ fem::PointEvents<dim> GrainPoint<dim>::relax(const Voigt<dim>& strain, const Bon
 template <int dim>
 void GrainPoint<dim>::accept(const Voigt<dim>& strain)
 {
-  const std::function<bool()> never;
+  const Voigt<dim> wanted = strain_to_rve * strain;
   Trial<dim> found =
-    stable && stable->first == to_rve(strain) ? std::move(stable->second) : settle(strain, Bonds::frozen, never);
+    stable && stable->first == wanted ? std::move(stable->second) : tried_at_work(wanted, {.bonds = Bonds::frozen});
   if (!found.in_equilibrium)
     throw fem::PointFailure("the grains of an RVE find no equilibrium");
   at_work.accept(std::move(found));
@@ -215,20 +193,6 @@ std::any GrainPoint<dim>::structure() const
 {
   return GrainStructure<dim>{turn, &accepted.network(), accepted.state()};
 }
-
-namespace
-{
-/// Names of GrainPoint::fields(); components along the axes of the sample.
-template <int dim>
-std::vector<std::string> names_of_fields()
-{
-  std::vector<std::string> names{"broken_segments_share", "broken_in_shear_share", "dissipation_J_per_m3",
-                                 "crack_density_per_m"};
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    names.push_back(fmt::format("crack_orientation_{}_per_m", voigt_name<dim>(k)));
-  return names;
-}
-} // namespace
 
 template <int dim>
 std::vector<double> GrainPoint<dim>::fields() const
@@ -335,7 +299,10 @@ fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, co
   for (Realisation<dim>& one : realisations)
     by_rock[one.rock].push_back(std::move(one));
   fem::Material<dim> material;
-  material.field_names = names_of_fields<dim>();
+  material.field_names = {"broken_segments_share", "broken_in_shear_share", "dissipation_J_per_m3",
+                          "crack_density_per_m"};
+  for (int k = 0; k < n_voigt<dim>; ++k) // along the axes of the sample
+    material.field_names.push_back(fmt::format("crack_orientation_{}_per_m", voigt_name<dim>(k)));
   material.make_point = [by_rock = std::move(by_rock), parameters, rocks = std::move(rocks)](
                           const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
     Random random(point_seed(parameters, place), RandomStream::dealing);

@@ -17,15 +17,7 @@
 /// The law made of grains: a representative volume at every point of a sample; docs/theory.md §10.
 namespace feldspar
 {
-/// The representative volume at a point, in its accepted state: the structure of GrainPoint.
-template <int dim>
-struct GrainStructure
-{
-  Tensor<dim> orientation;     ///< turns the axes of the RVE into those of the material
-  const Network<dim>* network; ///< of the realisation assigned to the point
-  NetworkState<dim> state;
-};
-
+/// The structure of a point is a GrainStructure.
 template <int dim>
 class GrainPoint final : public fem::MaterialPoint<dim>
 {
@@ -61,10 +53,8 @@ public:
 
 private:
   fem::PointEvents<dim> relax(const Voigt<dim>& strain, Bonds bonds);
-  Trial<dim> settle(const Voigt<dim>& strain, Bonds bonds, const std::function<bool()>& leaves) const;
-  void take_factor_of(Trial<dim>& trial) const;
+  Trial<dim> tried_at_work(const Voigt<dim>& strain, TrialOptions<dim> options) const;
   void forget_trial();
-  Voigt<dim> to_rve(const Voigt<dim>& strain) const;
 
   Tensor<dim> turn;
   Stiffness<dim> strain_to_rve; ///< Voigt strain of the sample's axes to that of the RVE's

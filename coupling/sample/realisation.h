@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/network/network.h"
+#include "coupling/network/network_state.h"
 
 #include <memory>
 #include <string>
@@ -13,15 +13,10 @@ namespace feldspar
 template <int dim>
 struct Realisation
 {
-  Realisation(std::shared_ptr<const Network<dim>> of_all)
-    : inside(of_all)
-    , at_side(std::move(of_all))
-  {
-  }
   Realisation(std::shared_ptr<const Network<dim>> of_inner_points,
-              std::shared_ptr<const Network<dim>> of_points_at_sides)
+              std::shared_ptr<const Network<dim>> of_points_at_sides = nullptr)
     : inside(std::move(of_inner_points))
-    , at_side(std::move(of_points_at_sides))
+    , at_side(of_points_at_sides ? std::move(of_points_at_sides) : inside)
   {
   }
 
@@ -37,4 +32,21 @@ std::vector<MineralShare> minerals_of(const std::vector<Realisation<dim>>& reali
 /// Realisation under a boundary; of the boundary of edges: periodic inside, and open along the first axis at sides.
 template <int dim>
 Realisation<dim> realisation(const Specimen<dim>& specimen, const Boundary& boundary);
+
+/// The representative volume at a point, in its accepted state.
+template <int dim>
+struct GrainStructure
+{
+  Tensor<dim> orientation;     ///< turns the axes of the RVE into those of the material
+  const Network<dim>* network; ///< of the realisation assigned to the point
+  NetworkState<dim> state;
+};
+
+/// The RVE at one point of a sample.
+template <int dim>
+struct SampleRve : GrainStructure<dim>
+{
+  std::uint64_t number; ///< of the point, as cracks name it
+  Vector<dim> position; ///< in the axes of the material [m]; fem/solid/kinematics.h
+};
 } // namespace feldspar

@@ -2,7 +2,6 @@
 
 #include "base/byte_archive.h"
 #include "base/ranks/ranks.h"
-#include "laboratory/finite_row.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +31,7 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
   record.body = TestBody::finite_elements;
   record.strain_rate = bookkeeping.time_step = std::numeric_limits<double>::quiet_NaN();
   record.confining_pressure = test.confining_pressure;
-  record.peak_demands = stop_rule.peak.demands();
+  record.peak_demands = stop_rule.demands();
   if (test.kind.follows_stages)
     {
       stage_walk.emplace(wanted);
@@ -66,7 +65,7 @@ SampleSetUp SampleTest::Parts::set_up()
 void SampleTest::Parts::seat()
 {
   if (const double pressure = pressure_of_last_row(); pressure > 0.0)
-    go([=, this](const double fraction) { return body->hold(pressure, pressure, fraction); });
+    go({SampleTarget::Lead::stress, pressure, pressure});
   height_at_seating = body->top_displacement();
   lateral_strain_at_seating = body->lateral_strain();
   add_row();
@@ -81,17 +80,19 @@ void SampleTest::Parts::load()
     return load_by_stage();
   const double pressure = test.confining_pressure;
   const double step = sign() > 0.0 ? sample.tension_step : sample.compression_step;
-  widens = widens || (may_widen() && stress_falls());
+  const auto& curve = record.curve;
+  const bool stress_falls =
+    curve.size() > 1 && std::abs(curve.back().axial_stress) < std::abs(curve[curve.size() - 2].axial_stress);
+  widens = widens || (may_widen() && stress_falls);
   if (!widens)
-    {
-      const double top = height_at_seating + sign() * step * double(record.curve.size()) * size.height;
-      go([=, this](const double fraction) { return body->press(top, pressure, fraction); });
-    }
+    go({SampleTarget::Lead::platens, height_at_seating + sign() * step * double(record.curve.size()) * size.height,
+        pressure});
   if (widens)
     {
       if (!steps)
-        wanted_width = std::max(body->lateral_strain(), width_of_last_row()) + step;
-      go([=, this](const double fraction) { return body->widen(wanted_width, pressure, fraction); });
+        wanted_width =
+          std::max(body->lateral_strain(), lateral_strain_at_seating + curve.back().gauge_lateral_strain) + step;
+      go({SampleTarget::Lead::lateral_strain, wanted_width, pressure});
     }
 }
 
@@ -105,13 +106,7 @@ bool SampleTest::Parts::is_over()
   return over;
 }
 
-bool SampleTest::Parts::stress_falls() const
-{
-  const auto& curve = record.curve;
-  return curve.size() > 1 && std::abs(curve.back().axial_stress) < std::abs(curve[curve.size() - 2].axial_stress);
-}
-
-void SampleTest::Parts::go(const std::function<fem::NewtonReport(double)>& solve)
+void SampleTest::Parts::go(const SampleTarget& target)
 {
   if (!steps)
     steps.emplace(first_steps());
@@ -121,7 +116,7 @@ void SampleTest::Parts::go(const std::function<fem::NewtonReport(double)>& solve
   while (!steps->finished())
     {
       body->limit_events(avalanche ? all_events : most_events);
-      const fem::NewtonReport report = solve((steps->next() - steps->done()) / (1.0 - steps->done()));
+      const fem::NewtonReport report = body->solve(target, (steps->next() - steps->done()) / (1.0 - steps->done()));
       ++bookkeeping.solver_work->n_solves;
       bookkeeping.solver_work->n_iterations += report.n_iterations;
       bookkeeping.solver_work->n_cascades += report.n_cascades;
@@ -223,15 +218,6 @@ void SampleTest::Parts::gather_cracks()
 
 void SampleTest::Parts::add_row()
 {
-  const CurveSample row = sample_row();
-  if (const std::string_view column = not_finite_in(row); !column.empty())
-    throw fem::StepFailure(fmt::format("numbers went wrong: {} is not finite", column));
-  record.curve.push_back(row);
-  stop_rule.add(record.curve.back());
-}
-
-CurveSample SampleTest::Parts::sample_row()
-{
   const bool is_first = record.curve.empty();
   CurveSample row;
   row.step = bookkeeping.steps;
@@ -249,6 +235,9 @@ CurveSample SampleTest::Parts::sample_row()
   row.n_shear_cracks = n_shear;
   row.energies = body->energies();
   standing.n_damaged_points = body->n_damaged_points();
-  return row;
+  if (const std::string_view column = not_finite_in(row); !column.empty())
+    throw fem::StepFailure(fmt::format("numbers went wrong: {} is not finite", column));
+  record.curve.push_back(row);
+  stop_rule.add(row);
 }
 } // namespace feldspar

@@ -15,19 +15,9 @@
 namespace feldspar
 {
 /// Target of a row of a test that follows stages.
-struct StageRow
+struct StageRow : SampleTarget
 {
-  enum class Lead
-  {
-    platens,       ///< to a displacement of the top [m]
-    stress,        ///< held by the platens, compression positive [Pa]
-    lateral_strain ///< of the body
-  };
-
-  Lead lead = Lead::platens;
-  double target = 0.0;
-  double confining_pressure = 0.0; ///< [Pa]
-  double time = 0.0;               ///< at its end, by the rates of the stages [s]
+  double time = 0.0; ///< at its end, by the rates of the stages [s]
 };
 
 /// A multiscale test on its way: what it consists of, and its steps.
@@ -75,9 +65,8 @@ struct SampleTest::Parts
   /// After a row.
   bool is_over();
   /// Goes in steps that break no more than their share. A step that still does, cut twice for that or the smallest, is
-  /// an avalanche, which no step divides. It goes from where it was left, if it was. `solve` goes a fraction of the way
-  /// that is left.
-  void go(const std::function<fem::NewtonReport(double)>& solve);
+  /// an avalanche, which no step divides. It goes from where it was left, if it was.
+  void go(const SampleTarget& target);
   void share_work();
   /// Keeps what an accepted step took.
   void note_step(const fem::NewtonReport& report);
@@ -104,8 +93,5 @@ private:
   void load_by_stage();
   StageMoment stage_moment() const;
   StageRow next_row_of_stage();
-  bool stress_falls() const;
-  CurveSample sample_row();
-  double width_of_last_row() const { return lateral_strain_at_seating + record.curve.back().gauge_lateral_strain; }
 };
 } // namespace feldspar

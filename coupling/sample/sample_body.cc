@@ -48,21 +48,20 @@ public:
   {
   }
 
-  fem::NewtonReport hold(const double axial_stress, const double confining_pressure, const double fraction) override
+  fem::NewtonReport solve(const SampleTarget& target, const double fraction) override
   {
-    return solid.solve(platens.under(confining_pressure).holding(axial_stress), fraction);
+    const auto test = platens.under(target.confining_pressure);
+    switch (target.lead)
+      {
+      case SampleTarget::Lead::stress:
+        return solid.solve(test.holding(target.target), fraction);
+      case SampleTarget::Lead::lateral_strain:
+        return solid.solve(test.widening(target.target * volume_of_lateral_strain()), fraction);
+      default:
+        return solid.solve(test.pressing(target.target), fraction);
+      }
   }
   void let_force_hold_platen() override { solid.bear_by_pressure("top", dim - 1); }
-  fem::NewtonReport press(const double top_displacement, const double confining_pressure,
-                          const double fraction) override
-  {
-    return solid.solve(platens.under(confining_pressure).pressing(top_displacement), fraction);
-  }
-  fem::NewtonReport widen(const double lateral_strain, const double confining_pressure, const double fraction) override
-  {
-    return solid.solve(platens.under(confining_pressure).widening(lateral_strain * volume_of_lateral_strain()),
-                       fraction);
-  }
   void accept() override { solid.accept(); }
   void reject() override { solid.reject(); }
   void limit_events(const std::uint64_t most_events) override { solid.limit_events(most_events); }
@@ -193,7 +192,7 @@ public:
     const auto* const grains = std::any_cast<GrainStructure<material_dim>>(&structure);
     if (grains == nullptr)
       throw ParameterError(parameter_id<&SampleParameters::material>(), "the points of this sample have no grains");
-    return SampleRve<material_dim>{number, position(i), grains->orientation, grains->network, grains->state};
+    return SampleRve<material_dim>{*grains, number, position(i)};
   }
 
   void write_fields(fem::FieldOutput& output, const double time) const override { output.write(solid, time); }

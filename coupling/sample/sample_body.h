@@ -4,7 +4,6 @@
 #include "coupling/sample/continua/parameters.h"
 #include "coupling/sample/realisation.h"
 #include "coupling/sample/sample_parameters.h"
-#include "coupling/sample/sample_rve.h"
 #include "fem/output.h"
 #include "fem/solid/solid.h"
 #include "laboratory/record.h"
@@ -29,6 +28,21 @@ struct SampleSetUp
   std::function<bool()> gives_up;                      ///< as SolidParameters::gives_up
 };
 
+/// The displacement or stress to which a sample is loaded.
+struct SampleTarget
+{
+  enum class Lead
+  {
+    platens,       ///< to a displacement of the top [m]
+    stress,        ///< held by the platens, compression positive [Pa]
+    lateral_strain ///< of the body, the platens as near as that takes
+  };
+
+  Lead lead = Lead::platens;
+  double target = 0.0;
+  double confining_pressure = 0.0; ///< [Pa], compression positive
+};
+
 /// Broken segments, and the event of each point that has some, with the number of the point (`joint` of the cracks).
 struct PointBreaks
 {
@@ -43,14 +57,10 @@ class SampleBody
 public:
   virtual ~SampleBody() = default;
 
-  /// A fraction of the way to a confining pressure and a stress that holds the top platen [Pa], compression positive.
-  virtual fem::NewtonReport hold(double axial_stress, double confining_pressure, double fraction) = 0;
-  /// Makes the force of the top platen a stress that holds it, from which hold() goes on.
+  /// A fraction of the way to a target.
+  virtual fem::NewtonReport solve(const SampleTarget& target, double fraction) = 0;
+  /// Makes the force of the top platen a stress that holds it, from which a solution for a stress goes on.
   virtual void let_force_hold_platen() = 0;
-  /// A fraction of the way to a displacement of the top platen [m].
-  virtual fem::NewtonReport press(double top_displacement, double confining_pressure, double fraction) = 0;
-  /// Brings the sample to a lateral strain, the platens as near as that takes.
-  virtual fem::NewtonReport widen(double lateral_strain, double confining_pressure, double fraction) = 0;
   virtual void accept() = 0;
   virtual void reject() = 0;
   virtual void limit_events(std::uint64_t most_events) = 0;

@@ -29,8 +29,8 @@ void SampleTest::Parts::transfer(Archive& archive, std::string& fields_written, 
   archive.value("seconds_in_points", bookkeeping.solver_work->seconds_in_points);
   archive.text("ended_early", record.ended_early);
   transfer_flag(archive, "came_apart", record.came_apart);
-  archive.bytes("curve", record.curve);
-  archive.bytes("solver_steps", bookkeeping.solver_work->steps);
+  archive.array("curve", record.curve);
+  archive.array("solver_steps", bookkeeping.solver_work->steps);
   archive.value("n_cuts_of_step", step_on_its_way.n_cuts);
   archive.text("fields_written", fields_written);
   for (const std::string& boundary : body->boundaries())
@@ -152,8 +152,8 @@ void SampleTest::write_state(const std::filesystem::path& folder, const std::str
       {
         std::string fields_written = parts->fields ? parts->fields->stored() : "";
         parts->transfer(root, fields_written, solid);
-        root.bytes("cracks", parts->record.cracks);
-        root.bytes("events", parts->record.events);
+        root.array("cracks", parts->record.cracks);
+        root.array("events", parts->record.events);
       }
     write_cells(root, solid.cells);
   });
@@ -168,8 +168,8 @@ void SampleTest::read_state(const std::filesystem::path& checkpoint, const std::
     if (part == 0)
       {
         parts->transfer(root, fields_written, solid);
-        root.bytes("cracks", parts->record.cracks);
-        root.bytes("events", parts->record.events);
+        root.array("cracks", parts->record.cracks);
+        root.array("events", parts->record.events);
       }
     for (auto& cell : read_cells(root))
       solid.cells.push_back(std::move(cell));

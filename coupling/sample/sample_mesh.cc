@@ -3,7 +3,6 @@
 #include "base/parameter_id.h"
 #include "base/ranks/communicator.h"
 #include "coupling/sample/sample_body.h"
-#include "fem/mesh/boundary_places.h"
 
 #include <deal.II/grid/grid_tools.h>
 

@@ -2,7 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/parameter_id.h"
-#include "coupling/rve/breaking.h"
+#include "coupling/rve/equilibrium.h"
 #include "coupling/sample/running_sample.h"
 
 #include <fmt/format.h>

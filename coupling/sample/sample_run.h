@@ -4,7 +4,6 @@
 #include "coupling/sample/continua/parameters.h"
 #include "coupling/sample/realisation.h"
 #include "coupling/sample/sample_parameters.h"
-#include "coupling/sample/sample_rve.h"
 #include "laboratory/parameters.h"
 #include "laboratory/test_outcome.h"
 

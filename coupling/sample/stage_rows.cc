@@ -100,16 +100,6 @@ void SampleTest::Parts::load_by_stage()
       if (stage_row.lead == StageRow::Lead::stress)
         body->let_force_hold_platen();
     }
-  go([=, this](const double fraction) {
-    switch (const StageRow& row = stage_row; row.lead)
-      {
-      case StageRow::Lead::stress:
-        return body->hold(row.target, row.confining_pressure, fraction);
-      case StageRow::Lead::lateral_strain:
-        return body->widen(row.target, row.confining_pressure, fraction);
-      default:
-        return body->press(row.target, row.confining_pressure, fraction);
-      }
-  });
+  go(stage_row);
 }
 } // namespace feldspar

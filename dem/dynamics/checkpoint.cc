@@ -1,6 +1,7 @@
 // The whole state of a body in motion, into a checkpoint and out of it.
 
 #include "base/byte_archive.h"
+#include "base/mapped.h"
 #include "base/system/hdf5_archive.h"
 #include "dem/dynamics/dynamics.h"
 
@@ -81,11 +82,7 @@ private:
   template <typename Value, typename Values>
   std::vector<Value> chosen(const Values& values, const std::size_t first) const
   {
-    std::vector<Value> result;
-    result.reserve(places.size());
-    for (const std::size_t j : places)
-      result.push_back(values[first + j]);
-    return result;
+    return mapped<Value>(places, [&](const std::size_t j) { return values[first + j]; });
   }
 
   const BodyShare<dim>& share;
@@ -135,14 +132,14 @@ void transfer_list(Archive& archive, const std::string& name, std::vector<T>& li
                    const FirstGrain& first_grain)
 {
   if constexpr (Archive::reads)
-    archive.bytes(name, list);
+    archive.array(name, list);
   else
     {
       std::vector<T> counted;
       std::ranges::copy_if(list, std::back_inserter(counted),
                            [&](const T& one) { return share.counts(first_grain(one)); });
       counted = share.gathered_by_first(counted);
-      archive.bytes(name, counted);
+      archive.array(name, counted);
     }
 }
 } // namespace
@@ -152,16 +149,12 @@ template <typename Archive>
 void Dynamics<dim>::transfer(Archive& archive)
 {
   auto& grains = body.grains;
-  const auto all_of = [&](const std::string& name, auto& components) {
-    for (std::size_t c = 0; c < components.size(); ++c)
-      archive.array(name + "_" + "xyz"[c], components[c]);
-  };
-  all_of("position", grains.position);
-  all_of("velocity", grains.velocity);
-  all_of("spin", grains.spin);
-  all_of("force", grains.force);
-  all_of("couple", grains.couple);
-  all_of("applied_force", applied_force);
+  transfer_components(archive, "position", grains.position);
+  transfer_components(archive, "velocity", grains.velocity);
+  transfer_components(archive, "spin", grains.spin);
+  transfer_components(archive, "force", grains.force);
+  transfer_components(archive, "couple", grains.couple);
+  transfer_components(archive, "applied_force", applied_force);
   images.transfer(archive, grains);
   if constexpr (Archive::reads)
     for (const auto* components : {&grains.position, &grains.velocity, &grains.force})
@@ -226,9 +219,6 @@ void Dynamics<dim>::transfer(Archive& archive)
       for (std::size_t w = 0; w < wall_set.size(); ++w)
         wall_set.take(w, std::move(near_walls[w]));
       keep_own();
-    }
-  if constexpr (Archive::reads)
-    {
       index_joints();
       inverse_inertia = InverseInertia(bodies());
     }

@@ -1,41 +1,34 @@
-#include "dem/dynamics/contact_stress.h"
+// Mean fields of the contact forces of a body in motion.
 
-#include "dem/laws/flat_joint_law.h"
+#include "dem/dynamics/dynamics.h"
 #include "dem/specimen/rigid_groups.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace feldspar
 {
 namespace
 {
+/// Calls add(force on grain 2, grain 1, grain 2) for each joint, then for each smooth joint and each contact without a
+/// face. Joints come as they are stored, or by their numbers: in an order that does not depend on where they are stored.
 template <int dim, class Add>
-void for_each_other_force(const Specimen<dim>& body, const Touches<dim>& touches, const Add& add)
+void for_each_contact_force(const Specimen<dim>& body, const Touches<dim>& touches, const Add& add,
+                            const bool by_number = false)
 {
+  const auto add_joint = [&](const std::size_t j) {
+    add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
+  };
+  if (by_number)
+    std::ranges::for_each(body.joints.by_number(), add_joint);
+  else
+    for (std::size_t j = 0; j < body.joints.size(); ++j)
+      add_joint(j);
   for (const auto& joint : body.smooth_joints)
     add(Vector<dim>(Eigen::Map<const Vector<dim>>(joint.force.data())), joint.grain_1, joint.grain_2);
   touches.for_each_touch([&](const Touch<dim>& touch) {
     add(Vector<dim>(Eigen::Map<const Vector<dim>>(touch.on_grains.force.data())), touch.grain_1, touch.grain_2);
   });
-}
-
-/// Calls add(force on grain 2, grain 1, grain 2) for each joint, then for each smooth joint and each contact without a
-/// face.
-template <int dim, class Add>
-void for_each_contact_force(const Specimen<dim>& body, const Touches<dim>& touches, const Add& add)
-{
-  for (std::size_t j = 0; j < body.joints.size(); ++j)
-    add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
-  for_each_other_force(body, touches, add);
-}
-
-/// The same, joints by their numbers: in an order that does not depend on where they are stored.
-template <int dim, class Add>
-void for_each_contact_force_by_number(const Specimen<dim>& body, const Touches<dim>& touches, const Add& add)
-{
-  for (const std::size_t j : body.joints.by_number())
-    add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
-  for_each_other_force(body, touches, add);
 }
 
 /// Calls add(σV, grain) for each grain that a wall presses: the moment of the wall's force about the centre of the grain,
@@ -76,7 +69,7 @@ void share_among_members(const std::vector<std::uint32_t>& group, std::vector<Te
 } // namespace
 
 template <int dim>
-Tensor<dim> mean_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Walls<dim>& walls)
+Tensor<dim> Dynamics<dim>::mean_stress() const
 {
   const BodyCentres<dim> centres(body);
   Tensor<dim> sum = Tensor<dim>::Zero();
@@ -84,12 +77,12 @@ Tensor<dim> mean_stress(const Specimen<dim>& body, const Touches<dim>& touches, 
     sum -= force * (centres.of(two) - centres.of(one)).transpose();
   };
   for_each_contact_force(body, touches, add);
-  for_each_wall_moment(body, walls, centres, [&](const Tensor<dim>& moment, std::size_t) { sum += moment; });
+  for_each_wall_moment(body, wall_set, centres, [&](const Tensor<dim>& moment, std::size_t) { sum += moment; });
   return sum / body.volume();
 }
 
 template <int dim>
-std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches<dim>& touches, const Walls<dim>& walls)
+std::vector<Tensor<dim>> Dynamics<dim>::grain_stresses() const
 {
   const auto& grains = body.grains;
   std::vector<Tensor<dim>> stress(grains.size(), Tensor<dim>::Zero());
@@ -107,8 +100,8 @@ std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches
         stress[two] += force * (at<dim>(grains.position, two) - centres.of(two)).transpose();
       }
   };
-  for_each_contact_force_by_number(body, touches, add);
-  for_each_wall_moment(body, walls, centres,
+  for_each_contact_force(body, touches, add, true);
+  for_each_wall_moment(body, wall_set, centres,
                        [&](const Tensor<dim>& moment, const std::size_t grain) { stress[grain] += moment; });
   const double solid_share = 1.0 - body.report.porosity;
   std::vector<double> volume(grains.size());
@@ -118,11 +111,19 @@ std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches
     share_among_members<dim>(body.groups, stress, volume);
   for (std::size_t i = 0; i < stress.size(); ++i)
     stress[i] *= solid_share / volume[i];
+  if (!part.is_shared())
+    return stress;
+  std::vector<double> components; // of the own grains
+  for (std::uint32_t i = part.grains().first; i < part.grains().end; ++i)
+    components.insert(components.end(), stress[i].data(), stress[i].data() + stress[i].size());
+  const std::vector<double> all = part.gathered(components);
+  for (std::size_t i = 0; i < stress.size(); ++i)
+    stress[i] = Eigen::Map<const Tensor<dim>>(&all[i * stress[i].size()]);
   return stress;
 }
 
 template <int dim>
-Tensor<dim> boundary_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Images<dim>& images)
+Tensor<dim> Dynamics<dim>::boundary_stress() const
 {
   Tensor<dim> sum = Tensor<dim>::Zero();
   const auto add = [&](const Vector<dim>& force, std::uint32_t, const std::uint32_t two) {
@@ -134,27 +135,26 @@ Tensor<dim> boundary_stress(const Specimen<dim>& body, const Touches<dim>& touch
 }
 
 template <int dim>
-double force_across(const Specimen<dim>& body, const BodyShare<dim>& share, const Touches<dim>& touches,
-                    const double height)
+double Dynamics<dim>::force_across(const double height) const
 {
   const BodyCentres<dim> centres(body);
   const auto& y = centres.all()[dim - 1];
   ExactSum sum;
   const auto add = [&](const Vector<dim>& force, const std::uint32_t one, const std::uint32_t two) {
-    if (share.counts(one) && (y[one] < height) != (y[two] < height))
+    if (part.counts(one) && (y[one] < height) != (y[two] < height))
       sum.add(y[two] < height ? -force[dim - 1] : force[dim - 1]);
   };
   for_each_contact_force(body, touches, add);
-  return share.totals({sum})[0];
+  return part.totals({sum})[0];
 }
 
 template <int dim>
-double mean_contact_force(const Specimen<dim>& body, const BodyShare<dim>& share, const Touches<dim>& touches)
+double Dynamics<dim>::mean_contact_force() const
 {
   ExactSum sum;
   std::size_t n_contacts = 0;
   const auto add = [&](const std::uint32_t grain_1, const double force) {
-    if (!share.counts(grain_1))
+    if (!part.counts(grain_1))
       return;
     sum.add(force);
     ++n_contacts;
@@ -169,18 +169,18 @@ double mean_contact_force(const Specimen<dim>& body, const BodyShare<dim>& share
   });
   ExactSum n;
   n.add(double(n_contacts));
-  const std::vector<double> totals = share.totals({sum, n});
+  const std::vector<double> totals = part.totals({sum, n});
   return totals[1] > 0.0 ? totals[0] / totals[1] : 0.0;
 }
 
-template Tensor<2> mean_stress<2>(const Specimen<2>&, const Touches<2>&, const Walls<2>&);
-template Tensor<3> mean_stress<3>(const Specimen<3>&, const Touches<3>&, const Walls<3>&);
-template std::vector<Tensor<2>> grain_stresses<2>(const Specimen<2>&, const Touches<2>&, const Walls<2>&);
-template std::vector<Tensor<3>> grain_stresses<3>(const Specimen<3>&, const Touches<3>&, const Walls<3>&);
-template Tensor<2> boundary_stress<2>(const Specimen<2>&, const Touches<2>&, const Images<2>&);
-template Tensor<3> boundary_stress<3>(const Specimen<3>&, const Touches<3>&, const Images<3>&);
-template double force_across<2>(const Specimen<2>&, const BodyShare<2>&, const Touches<2>&, double);
-template double force_across<3>(const Specimen<3>&, const BodyShare<3>&, const Touches<3>&, double);
-template double mean_contact_force<2>(const Specimen<2>&, const BodyShare<2>&, const Touches<2>&);
-template double mean_contact_force<3>(const Specimen<3>&, const BodyShare<3>&, const Touches<3>&);
+template Tensor<2> Dynamics<2>::mean_stress() const;
+template Tensor<3> Dynamics<3>::mean_stress() const;
+template std::vector<Tensor<2>> Dynamics<2>::grain_stresses() const;
+template std::vector<Tensor<3>> Dynamics<3>::grain_stresses() const;
+template Tensor<2> Dynamics<2>::boundary_stress() const;
+template Tensor<3> Dynamics<3>::boundary_stress() const;
+template double Dynamics<2>::force_across(double) const;
+template double Dynamics<3>::force_across(double) const;
+template double Dynamics<2>::mean_contact_force() const;
+template double Dynamics<3>::mean_contact_force() const;
 } // namespace feldspar

@@ -3,7 +3,6 @@
 #include "dem/dynamics/sweeps/joint_groups.h"
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
-#include "dem/storage/responds_as_one.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -20,27 +20,6 @@ namespace
 {
 /// Looking at the groups of joints takes some 2 % of the time of a broken body of 1 948 discs.
 constexpr std::uint64_t steps_between_groupings = 256;
-
-/// The first grain of those that a process has found, which all then know.
-template <int dim>
-std::optional<StrayGrain> first_of_all(const BodyShare<dim>& part, const std::optional<StrayGrain>& here)
-{
-  struct Plain
-  {
-    std::uint32_t grain;
-    std::uint32_t through_wall;
-    std::array<char, 64> motion;
-  };
-  if (!part.is_shared())
-    return here;
-  std::vector<Plain> own;
-  if (here)
-    here->motion.copy(own.emplace_back(Plain{here->grain, here->through_wall, {}}).motion.data(), 63);
-  const auto all = part.gathered(own);
-  const auto worst = std::ranges::min_element(all, {}, &Plain::through_wall); // the first of those in the open
-  return worst == all.end() ? std::nullopt
-                            : std::optional<StrayGrain>({worst->grain, worst->motion.data(), worst->through_wall > 0});
-}
 
 template <int dim>
 bool face_outlives_bonds(const Joints<dim>& joints)
@@ -225,8 +204,9 @@ void Dynamics<dim>::index_joints()
   // Entries are sorted by the numbers of the joints, wherever these are stored: sums over them have one order.
   const auto number_and_end = [&](const std::uint32_t entry) { return std::pair(joints.number[entry / 2], entry % 2); };
   for (std::size_t i = 0; i < images.n_own(); ++i)
-    std::sort(joints_of.entries.begin() + joints_of.first[i], joints_of.entries.begin() + joints_of.first[i + 1],
-              [&](const std::uint32_t a, const std::uint32_t b) { return number_and_end(a) < number_and_end(b); });
+    std::ranges::sort(
+      std::span(joints_of.entries).subspan(joints_of.first[i], joints_of.first[i + 1] - joints_of.first[i]), {},
+      number_and_end);
   sum_order = SumOrder(joints_of, joints.size(), part.grains());
   sweep_memory = SweepMemory<dim>(joints);
   know_copies();
@@ -321,12 +301,16 @@ void Dynamics<dim>::choose_time_step()
 template <int dim>
 void Dynamics<dim>::check_motion() const
 {
-  if (const auto stray = first_of_all(part, find_stray_grain(body, part.grains(), wall_set, dt)))
-    {
-      Circumstances now = circumstances();
-      now.through_wall = stray->through_wall;
-      throw Runaway(describe_runaway(fmt::format("grain {} {}", stray->grain, stray->motion), now));
-    }
+  std::vector<StrayGrain> strays;
+  if (const auto here = find_stray_grain(body, part.grains(), wall_set, dt))
+    strays.push_back(*here);
+  strays = part.gathered(strays); // which all then know
+  if (strays.empty())
+    return;
+  const auto& first = *std::ranges::min_element(strays, {}, &StrayGrain::through_wall); // of those in the open
+  Circumstances now = circumstances();
+  now.through_wall = first.through_wall;
+  throw Runaway(describe_runaway(fmt::format("grain {} {}", first.grain, first.motion()), now));
 }
 
 template <int dim>

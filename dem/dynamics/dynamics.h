@@ -12,7 +12,6 @@
 #include "dem/dynamics/sweeps/motion.h"
 #include "dem/dynamics/touches.h"
 #include "dem/dynamics/walls.h"
-#include "dem/dynamics/zero_force.h"
 #include "dem/sharing/body_share.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen.h"
@@ -80,7 +79,7 @@ public:
   /// Brings the motions, or the positions alone, of all grains of a shared body up to date, which otherwise are those of the
   /// own ones and their neighbours.
   void know_all_motions();
-  void know_all_positions();
+  void know_all_positions() { part.bring_all(body.grains.position); }
   /// The same of all numbers of the grains, for transfer().
   void know_all();
   /// The largest work of a process over the largest after a new division.
@@ -133,7 +132,10 @@ public:
   double largest_unbalanced_force_ratio() const;
   /// -(1/V) Σ f ⊗ l over all contacts and walls [Pa], tension positive.
   Tensor<dim> mean_stress() const;
-  /// The stress of each grain, as grain_stresses() of contact_stress.h [Pa]; [n_grains].
+  /// Stress of each grain, a pull > 0: Σ f ⊗ (x_c - x) over contacts at x_c, over its share of the body's volume, its own
+  /// over the solid share [Pa]; symmetric where its couples balance. Members of a rigid group have that of their group.
+  /// The stress of one grain scatters by the size of the stress; the mean over some tens of grains is that of the body
+  /// there. [n_grains]
   std::vector<Tensor<dim>> grain_stresses() const;
   /// Mean stress of a periodic body from the contacts across the sides of the cell alone: the mean of the tractions. It
   /// equals the other mean where forces balance.
@@ -163,6 +165,7 @@ private:
   GrainRange moved() const { return groups.empty() ? part.grains() : GrainRange{0, std::uint32_t(groups.size())}; }
   double kinetic_energy(std::uint32_t one_body) const;
   double squared_unbalanced_force(std::size_t one_body) const;
+  double mean_contact_force() const;
   bool watch_is_over();
   bool remove_lost_contacts();
   bool regroup_joints();

@@ -49,7 +49,7 @@ struct EnergyLedger
     archive.value("strain_energy_at_start", strain_at_start);
     archive.value("kinetic_energy_at_start", kinetic_at_start);
     std::vector lost{slip_of_lost_contacts};
-    archive.bytes("slip_energy_of_lost_contacts", lost);
+    archive.array("slip_energy_of_lost_contacts", lost);
     if (lost.size() != 1)
       throw InputError("the energy of lost contacts has another layout");
     slip_of_lost_contacts = lost.front();

@@ -41,9 +41,35 @@ public:
   }
 
   /// The number of an image among the grains; one that is not there yet is put behind them.
-  std::uint32_t number_of(const PeriodicImage<dim>& image, Grains<dim>& grains);
+  std::uint32_t number_of(const PeriodicImage<dim>& image, Grains<dim>& grains)
+  {
+    const auto [entry, is_new] = number_of_image.try_emplace(image, std::uint32_t(grains.size()));
+    if (is_new)
+      {
+        images.push_back(image);
+        const auto repeat = [&](auto& values) { values.push_back(values[image.owner]); };
+        for (auto* values : {&grains.radius, &grains.mass, &grains.moment_of_inertia})
+          repeat(*values);
+        for (auto* components : {&grains.position, &grains.velocity, &grains.force})
+          for (auto& component : *components)
+            repeat(component);
+        for (auto* components : {&grains.spin, &grains.couple})
+          for (auto& component : *components)
+            repeat(component);
+        set<dim>(grains.position, entry->second, at<dim>(grains.position, image.owner) + shift(image, edges));
+      }
+    return entry->second;
+  }
   /// Gives every grain that could come within `reach` [m] of one of another box its images.
-  void add_within(double reach, Grains<dim>& grains);
+  void add_within(const double reach, Grains<dim>& grains)
+  {
+    Grains<dim> own;
+    own.radius.assign(grains.radius.begin(), grains.radius.begin() + std::ptrdiff_t(own_grains));
+    for (int c = 0; c < dim; ++c)
+      own.position[c].assign(grains.position[c].begin(), grains.position[c].begin() + std::ptrdiff_t(own_grains));
+    for (const auto& image : images_within(own, edges, reach))
+      number_of(image, grains);
+  }
 
   /// The rate at which the cell, and with it every image, moves away from the origin [1/s].
   void deform(const Tensor<dim>& wanted) { cell_rate = wanted; }
@@ -52,13 +78,29 @@ public:
   const Tensor<dim>& cell() const { return edges; }
 
   /// Moves the cell over a step [s], and the images after their owners.
-  void move(double dt, Grains<dim>& grains);
+  void move(const double dt, Grains<dim>& grains)
+  {
+    edges += dt * cell_rate * edges;
+    for (std::size_t k = 0; k < images.size(); ++k)
+      {
+        const auto& image = images[k];
+        const Vector<dim> way = shift(image, edges);
+        const Vector<dim> faster = cell_rate * way;
+        for (int c = 0; c < dim; ++c)
+          {
+            grains.position[c][own_grains + k] = grains.position[c][image.owner] + way[c];
+            grains.velocity[c][own_grains + k] = grains.velocity[c][image.owner] + faster[c];
+          }
+        for (int c = 0; c < n_rotations<dim>; ++c)
+          grains.spin[c][own_grains + k] = grains.spin[c][image.owner];
+      }
+  }
 
   /// Reading, gives the grains room for the images; their positions and velocities are the grains' own.
   template <typename Archive>
   void transfer(Archive& archive, Grains<dim>& grains)
   {
-    archive.bytes("images", images);
+    archive.array("images", images);
     for (const auto& image : images)
       if (image.owner >= own_grains)
         throw InputError("of another specimen");

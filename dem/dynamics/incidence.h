@@ -3,6 +3,7 @@
 #include "dem/specimen/neighbours.h"
 
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace feldspar
@@ -26,8 +27,7 @@ Incidence incidence(const std::size_t n_grains, const std::size_t n_contacts, En
       ++result.first[ends.first + 1];
       ++result.first[owner_of(ends.second) + 1];
     }
-  for (std::size_t i = 0; i < n_grains; ++i)
-    result.first[i + 1] += result.first[i];
+  std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
   auto next = result.first;
   result.entries.resize(2 * n_contacts);
   for (std::size_t k = 0; k < n_contacts; ++k)

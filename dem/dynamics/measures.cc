@@ -1,8 +1,8 @@
-// The measures of a body in motion: energies, unbalanced forces, stresses, contacts. Nothing here changes it.
+// The measures of a body in motion: energies, unbalanced forces, contacts (stresses: contact_stress.cc). Nothing here
+// changes it.
 
 #include "base/parallel.h"
 #include "base/simd.h"
-#include "dem/dynamics/contact_stress.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 
@@ -117,7 +117,7 @@ double Dynamics<dim>::unbalanced_force_ratio() const
         n_free.add(1.0);
       }
   const std::vector<double> totals = part.totals({unbalanced, n_free});
-  const double carried = mean_contact_force(body, part, touches);
+  const double carried = mean_contact_force();
   return carried > 0.0 && totals[1] > 0.0 ? totals[0] / totals[1] / carried : 0.0;
 }
 
@@ -127,36 +127,8 @@ double Dynamics<dim>::largest_unbalanced_force_ratio() const
   double largest = 0.0;
   for (std::size_t i = moved().first; i < moved().end; ++i)
     largest = std::max(largest, squared_unbalanced_force(i));
-  const double carried = mean_contact_force(body, part, touches);
+  const double carried = mean_contact_force();
   return carried > 0.0 ? std::sqrt(part.largest({largest})[0]) / carried : 0.0;
-}
-
-template <int dim>
-Tensor<dim> Dynamics<dim>::mean_stress() const
-{
-  return feldspar::mean_stress(body, touches, wall_set);
-}
-
-template <int dim>
-std::vector<Tensor<dim>> Dynamics<dim>::grain_stresses() const
-{
-  auto stresses = feldspar::grain_stresses(body, touches, wall_set);
-  if (!part.is_shared())
-    return stresses;
-  const auto [first, end] = part.grains();
-  std::vector<double> components;
-  for (std::uint32_t i = first; i < end; ++i)
-    components.insert(components.end(), stresses[i].data(), stresses[i].data() + stresses[i].size());
-  const std::vector<double> all = part.gathered(components);
-  for (std::size_t i = 0; i < stresses.size(); ++i)
-    stresses[i] = Eigen::Map<const Tensor<dim>>(&all[i * stresses[i].size()]);
-  return stresses;
-}
-
-template <int dim>
-Tensor<dim> Dynamics<dim>::boundary_stress() const
-{
-  return feldspar::boundary_stress(body, touches, images);
 }
 
 template <int dim>
@@ -169,12 +141,6 @@ double Dynamics<dim>::sum_of_forces(const int axis) const
 }
 
 template <int dim>
-double Dynamics<dim>::force_across(const double height) const
-{
-  return feldspar::force_across(body, part, touches, height);
-}
-
-template <int dim>
 double Dynamics<dim>::faceless_coordination_number() const
 {
   std::size_t n = 0;
@@ -184,24 +150,14 @@ double Dynamics<dim>::faceless_coordination_number() const
 
 template double Dynamics<2>::kinetic_energy(std::uint32_t) const;
 template Energies Dynamics<2>::energies() const;
-template double Dynamics<2>::squared_unbalanced_force(std::size_t) const;
 template double Dynamics<2>::unbalanced_force_ratio() const;
 template double Dynamics<2>::largest_unbalanced_force_ratio() const;
-template Tensor<2> Dynamics<2>::mean_stress() const;
-template std::vector<Tensor<2>> Dynamics<2>::grain_stresses() const;
-template Tensor<2> Dynamics<2>::boundary_stress() const;
 template double Dynamics<2>::sum_of_forces(int) const;
-template double Dynamics<2>::force_across(double) const;
 template double Dynamics<2>::faceless_coordination_number() const;
 template double Dynamics<3>::kinetic_energy(std::uint32_t) const;
 template Energies Dynamics<3>::energies() const;
-template double Dynamics<3>::squared_unbalanced_force(std::size_t) const;
 template double Dynamics<3>::unbalanced_force_ratio() const;
 template double Dynamics<3>::largest_unbalanced_force_ratio() const;
-template Tensor<3> Dynamics<3>::mean_stress() const;
-template std::vector<Tensor<3>> Dynamics<3>::grain_stresses() const;
-template Tensor<3> Dynamics<3>::boundary_stress() const;
 template double Dynamics<3>::sum_of_forces(int) const;
-template double Dynamics<3>::force_across(double) const;
 template double Dynamics<3>::faceless_coordination_number() const;
 } // namespace feldspar

@@ -55,19 +55,26 @@ std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const Grai
   for (std::uint32_t i = own.first; i < own.end && n_objections > 0; ++i)
     {
       if (!is_near(i))
-        return StrayGrain{i, "stands nowhere near the body"};
+        return StrayGrain{i};
       if (!is_slow(i))
-        return StrayGrain{i,
-                          fmt::format("goes {:.3g} of its radii", std::sqrt(moves(i) + rolls(i)) / grains.radius[i])};
+        return StrayGrain{i, false, std::sqrt(moves(i) + rolls(i)) / grains.radius[i]};
     }
 
   std::optional<StrayGrain> beyond_wall;
   walls.for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
     // The overlap decides, not the position of the centre: a cut specimen may begin with a centre just inside the wall.
     if (!beyond_wall && touch.overlap > body.grains.radius[touch.grain])
-      beyond_wall = StrayGrain{touch.grain, "has been pressed through a wall", true};
+      beyond_wall = StrayGrain{touch.grain, true};
   });
   return beyond_wall;
+}
+
+std::string StrayGrain::motion() const
+{
+  if (through_wall)
+    return "has been pressed through a wall";
+  return way_over_radius == 0.0 ? "stands nowhere near the body"
+                                : fmt::format("goes {:.3g} of its radii", way_over_radius);
 }
 
 std::string describe_runaway(const std::string& trouble, const Circumstances& circumstances)

@@ -21,8 +21,10 @@ struct Runaway : InputError
 struct StrayGrain
 {
   std::uint32_t grain;
-  std::string motion; ///< "goes ...", "stands ..."
   bool through_wall = false;
+  double way_over_radius = 0.0; ///< in a step; 0 of one that stands or has been pressed where it cannot be
+
+  std::string motion() const; ///< "goes ...", "stands ..."
 };
 
 /// The first of these grains that goes farther in a step of dt [s] than its radius, in translation or rolling

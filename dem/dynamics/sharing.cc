@@ -1,6 +1,7 @@
 // A body that several processes compute together: its division, what they agree on in a step, and its whole state.
 
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/specimen/fragments.h"
 
@@ -44,11 +45,7 @@ void Dynamics<dim>::share(Partners& with)
   auto& joints = body.joints;
   part = BodyShare<dim>(
     with, work_of_joints<dim>(body.grains.size(), joints.law, joints.grain_1, joints.bonded, body.smooth_joints));
-  std::vector<std::size_t> kept;
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (part.concerns({joints.grain_1[j], joints.grain_2[j]}))
-      kept.push_back(j);
-  joints.keep(kept);
+  joints.keep_if([&](const std::size_t j) { return part.concerns({joints.grain_1[j], joints.grain_2[j]}); });
   keep_own();
 }
 
@@ -88,7 +85,8 @@ void Dynamics<dim>::agree_on_copies()
   needed.insert(needed.end(), body.joints.grain_2.begin(), body.joints.grain_2.end());
   for (const SmoothJoint<dim>& joint : body.smooth_joints)
     needed.insert(needed.end(), {joint.grain_1, joint.grain_2});
-  touches.for_each_pair([&](const NearPair& pair) { needed.insert(needed.end(), {pair.grain_1, pair.grain_2}); });
+  for (const NearPair& pair : touches.near_pairs())
+    needed.insert(needed.end(), {pair.grain_1, pair.grain_2});
   part.agree_on_copies(std::move(needed));
   know_copies();
 }
@@ -125,10 +123,8 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
       for (const double work : works[c])
         ledger.boundary_work += work;
   };
-  const auto note = [&](const auto& all) {
-    released.clear();
-    for (const auto& one : all)
-      released.push_back(one.released_energy);
+  const auto note = [&]<typename Event>(const std::vector<Event>& all) {
+    released = mapped<double>(all, &Event::released_energy);
   };
   if (!part.is_shared())
     {
@@ -175,7 +171,6 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
   std::vector<PlainBreak> plain;
   if (n_breaks_of_all > 0.0)
     {
-      plain.reserve(breaks.size());
       for (const Break& event : breaks)
         plain.push_back({joint_of(event).number, event.segment, event.released_energy});
       plain = part.gathered(plain);
@@ -183,12 +178,6 @@ std::vector<Break> Dynamics<dim>::agree(std::vector<Break> breaks, const double 
     }
   note(plain);
   return breaks;
-}
-
-template <int dim>
-void Dynamics<dim>::know_all_positions()
-{
-  part.bring_all(body.grains.position);
 }
 
 template <int dim>
@@ -243,12 +232,8 @@ template void Dynamics<2>::agree_on_copies();
 template void Dynamics<3>::agree_on_copies();
 template void Dynamics<2>::know_copies();
 template void Dynamics<3>::know_copies();
-template std::vector<std::vector<double>> Dynamics<2>::works_of_applied_forces(double) const;
-template std::vector<std::vector<double>> Dynamics<3>::works_of_applied_forces(double) const;
 template std::vector<Break> Dynamics<2>::agree(std::vector<Break>, double);
 template std::vector<Break> Dynamics<3>::agree(std::vector<Break>, double);
-template void Dynamics<2>::know_all_positions();
-template void Dynamics<3>::know_all_positions();
 template void Dynamics<2>::know_all_motions();
 template void Dynamics<3>::know_all_motions();
 template std::vector<std::uint32_t> Dynamics<2>::fragments() const;

@@ -3,7 +3,7 @@
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/images.h"
 #include "dem/dynamics/incidence.h"
-#include "dem/dynamics/zero_force.h"
+#include "dem/dynamics/parameters.h"
 #include "dem/laws/contact_motion.h"
 #include "dem/laws/linear_contact_law.h"
 #include "dem/sharing/body_share.h"
@@ -70,12 +70,6 @@ public:
   std::uint32_t owner_2(const std::size_t pair) const { return pairs[pair].owner_2; }
   /// Numbers of the pairs that were in contact at the last update(), ascending; none from number() to the next one.
   std::span<const std::uint32_t> touching() const { return std::span(touching_ones).first(n_touching); }
-  template <typename Visit>
-  void for_each_pair(const Visit& visit) const
-  {
-    for (const NearPair& pair : pairs)
-      visit(pair);
-  }
   /// visit(contact) for each pair that has been in contact, by its grains.
   template <typename Visit>
   void for_each_touch(const Visit& visit) const

@@ -1,5 +1,6 @@
 #include "dem/dynamics/walls.h"
 
+#include "base/mapped.h"
 #include "dem/laws/linear_contact_law.h"
 #include "dem/laws/pivoting_plate.h"
 
@@ -12,46 +13,27 @@ namespace feldspar
 {
 namespace
 {
-/// The wall is grain 1, without rotation; n points from it to the grain, t = n turned by +90°.
-std::array<double, 1> slip_on_wall(const Grains<2>& grains, const Wall& wall, const std::uint32_t grain,
-                                   const double distance, const double dt)
+/// A direction in which a grain slides along a plane, and the rotation by which its contact does so too.
+struct Tangent
 {
-  const int along = 1 - wall.axis;
-  const double tangent = wall.axis == 0 ? wall.side : -wall.side; // t = (-n_y, n_x)
-  return {dt * (tangent * grains.velocity[along][grain] - distance * grains.spin[0][grain])};
-}
+  int along;
+  double sign; ///< 1 or -1, along the axis
+  int about;
+  double arm; ///< [m]
+};
 
-void add_wall_shear(Grains<2>& grains, const Wall& wall, const std::uint32_t grain, const double distance,
-                    const std::array<double, 1>& shear_force)
+/// The wall is grain 1, without rotation; n points from it to the grain. In the plane t = n turned by +90°; in space the two
+/// other axes in cyclic order. The contact lies at -d n from the centre: v + ω × (-d n).
+template <int dim>
+std::array<Tangent, dim - 1> tangents(const Wall& wall, const double distance)
 {
-  const int along = 1 - wall.axis;
-  const double tangent = wall.axis == 0 ? wall.side : -wall.side;
-  grains.force[along][grain] += tangent * shear_force[0];
-  grains.couple[0][grain] -= distance * shear_force[0];
-}
-
-/// Planes only. The shear force has components along the two other axes, in cyclic order.
-std::array<double, 2> slip_on_wall(const Grains<3>& grains, const Wall& wall, const std::uint32_t grain,
-                                   const double distance, const double dt)
-{
-  const int one = (wall.axis + 1) % 3;
-  const int two = (wall.axis + 2) % 3;
-  // The contact lies at -d n from the centre, n along `side` of the axis: v + ω × (-d n).
-  const double arm = distance * wall.side;
-  return {dt * (grains.velocity[one][grain] - arm * grains.spin[two][grain]),
-          dt * (grains.velocity[two][grain] + arm * grains.spin[one][grain])};
-}
-
-void add_wall_shear(Grains<3>& grains, const Wall& wall, const std::uint32_t grain, const double distance,
-                    const std::array<double, 2>& shear_force)
-{
-  const int one = (wall.axis + 1) % 3;
-  const int two = (wall.axis + 2) % 3;
-  const double arm = distance * wall.side;
-  grains.force[one][grain] += shear_force[0];
-  grains.force[two][grain] += shear_force[1];
-  grains.couple[one][grain] += arm * shear_force[1];
-  grains.couple[two][grain] -= arm * shear_force[0];
+  if constexpr (dim == 2)
+    return {{{1 - wall.axis, wall.axis == 0 ? wall.side : -wall.side, 0, distance}}};
+  else
+    {
+      const int one = (wall.axis + 1) % 3, two = (wall.axis + 2) % 3;
+      return {{{one, 1.0, two, distance * wall.side}, {two, 1.0, one, -(distance * wall.side)}}};
+    }
 }
 
 /// Distance of a grain from the middle of a plate that pivots [m]; 0 for other walls.
@@ -150,31 +132,22 @@ double Walls<dim>::stiffness_in_touch(const Specimen<dim>& body, const std::size
 {
   if (!shared_stiffnesses.empty())
     return shared_stiffnesses[wall];
-  double sum = 0.0;
-  for (const auto& touch : touches[wall])
-    if (touch.overlap > 0.0)
-      sum += stiffness(body, body.grains.radius[touch.grain]);
-  return sum;
+  const auto all = stiffnesses_in_touch(body, wall);
+  return std::accumulate(all.begin(), all.end(), 0.0);
 }
 
 template <int dim>
 std::vector<double> Walls<dim>::pressures(const std::size_t wall) const
 {
-  std::vector<double> all;
-  all.reserve(touches[wall].size());
-  for (const auto& touch : touches[wall])
-    all.push_back(touch.normal_force);
-  return all;
+  return mapped<double>(touches[wall], &WallTouch<dim>::normal_force);
 }
 
 template <int dim>
 std::vector<double> Walls<dim>::stiffnesses_in_touch(const Specimen<dim>& body, const std::size_t wall) const
 {
-  std::vector<double> all;
-  all.reserve(touches[wall].size());
-  for (const auto& touch : touches[wall])
-    all.push_back(touch.overlap > 0.0 ? stiffness(body, body.grains.radius[touch.grain]) : 0.0);
-  return all;
+  return mapped<double>(touches[wall], [&](const WallTouch<dim>& touch) {
+    return touch.overlap > 0.0 ? stiffness(body, body.grains.radius[touch.grain]) : 0.0;
+  });
 }
 
 template <int dim>
@@ -276,11 +249,10 @@ void Walls<dim>::balance(const Specimen<dim>& body, const BodyShare<dim>& share,
 {
   Wall& plate = walls[wall];
   constexpr double at_pivot = 0.0; // where a plate has the distance that it has everywhere when it is level
-  std::vector<SpringOnPlate> springs;
-  springs.reserve(touches[wall].size());
-  for (const auto& touch : touches[wall])
-    springs.push_back({stiffness(body, body.grains.radius[touch.grain]), touch.lever,
-                       touch.zero_distance - distance_from(body, plate, touch.grain, at_pivot)});
+  const auto springs = mapped<SpringOnPlate>(touches[wall], [&](const WallTouch<dim>& touch) {
+    return SpringOnPlate{stiffness(body, body.grains.radius[touch.grain]), touch.lever,
+                         touch.zero_distance - distance_from(body, plate, touch.grain, at_pivot)};
+  });
   plate.tilt = balanced_tilt(share.gathered(springs), plate.tilt);
 }
 
@@ -305,8 +277,12 @@ bool Walls<dim>::press(const double dt, Specimen<dim>& body, const BodyShare<dim
             contact_made = true;
           // A grain that comes into contact, or a smooth wall, gathers no shear.
           std::array<double, dim - 1> slip{};
-          if (wall.friction > 0.0 && touch.overlap > 0.0)
-            slip = slip_on_wall(grains, wall, i, distance, dt);
+          const auto directions = tangents<dim>(wall, distance);
+          for (int c = 0; c < dim - 1 && wall.friction > 0.0 && touch.overlap > 0.0; ++c)
+            {
+              const auto& [along, sign, about, arm] = directions[c];
+              slip[c] = dt * (sign * grains.velocity[along][i] - arm * grains.spin[about][i]);
+            }
           const auto response = linear_contact::update<dim, double>({k_n, k_n / body.particle_contact.stiffness_ratio},
                                                                     wall.friction, touch.shear_force, overlap, slip);
           touch.overlap = std::max(0.0, overlap);
@@ -318,8 +294,12 @@ bool Walls<dim>::press(const double dt, Specimen<dim>& body, const BodyShare<dim
                      at<dim>(grains.force, i) + wall.side * response.normal_force * wall_direction(body, wall, i));
           else
             grains.force[wall.axis][i] += wall.side * response.normal_force;
-          if (wall.friction > 0.0)
-            add_wall_shear(grains, wall, i, distance, response.shear_force);
+          for (int c = 0; c < dim - 1 && wall.friction > 0.0; ++c)
+            {
+              const auto& [along, sign, about, arm] = directions[c];
+              grains.force[along][i] += sign * response.shear_force[c];
+              grains.couple[about][i] -= arm * response.shear_force[c];
+            }
           sum += response.normal_force;
         }
       forces[w] = sum;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/energy_ledger.h"
-#include "dem/dynamics/zero_force.h"
+#include "dem/dynamics/parameters.h"
 #include "dem/sharing/body_share.h"
 #include "dem/specimen/specimen.h"
 
@@ -138,7 +138,7 @@ public:
   template <typename Archive>
   void transfer(Archive& archive)
   {
-    archive.bytes("walls", walls);
+    archive.array("walls", walls);
     archive.array("wall_forces", forces);
     archive.array("wall_position_at_search", position_at_search);
     archive.array("wall_tilt_at_search", tilt_at_search);

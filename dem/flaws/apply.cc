@@ -33,11 +33,18 @@ Vector<2> in_plane(const Vector<dim>& point)
 template <int dim>
 struct Effect
 {
-  std::function<bool(const Vector<dim>&)> takes_out;
   std::function<bool(const Vector<dim>&, const Vector<dim>&)> cuts;
+  std::function<bool(const Vector<dim>&)> takes_out = {}; ///< of an open flaw
   /// Normal of the plane of a closed flaw where it cuts.
   std::function<Vector<dim>(const Vector<dim>&, const Vector<dim>&)> normal = {};
 };
+
+/// A hole cuts a line whose middle it takes out.
+template <int dim, typename Inside>
+Effect<dim> hole_of(const Inside& inside)
+{
+  return {[=](const Vector<dim>& a, const Vector<dim>& b) { return inside(0.5 * (a + b)); }, inside};
+}
 
 template <int dim>
 Effect<dim> effect_of(const EllipseHole& hole)
@@ -48,14 +55,14 @@ Effect<dim> effect_of(const EllipseHole& hole)
     const Vector<2> from_centre = in_plane<dim>(point) - hole.centre;
     return std::hypot(from_centre.dot(first) / hole.semi_axes[0], from_centre.dot(second) / hole.semi_axes[1]) < 1.0;
   };
-  return {inside, [=](const Vector<dim>& a, const Vector<dim>& b) { return inside(0.5 * (a + b)); }};
+  return hole_of<dim>(inside);
 }
 
 template <int dim>
 Effect<dim> effect_of(const PolygonHole& hole)
 {
   const auto inside = [=](const Vector<dim>& point) { return is_inside(hole.corners, in_plane<dim>(point)); };
-  return {inside, [=](const Vector<dim>& a, const Vector<dim>& b) { return inside(0.5 * (a + b)); }};
+  return hole_of<dim>(inside);
 }
 
 template <int dim>
@@ -67,7 +74,7 @@ Effect<dim> effect_of(const SphereHole& hole)
     else
       return false;
   };
-  return {inside, [=](const Vector<dim>& a, const Vector<dim>& b) { return inside(0.5 * (a + b)); }};
+  return hole_of<dim>(inside);
 }
 
 template <int dim>
@@ -81,9 +88,10 @@ Effect<dim> effect_of(const Slot& slot)
     const double s = from_start.dot(along);
     return s >= 0.0 && s <= length && (from_start - s * along).norm() < 0.5 * slot.width;
   };
-  return {inside, [=](const Vector<dim>& a, const Vector<dim>& b) {
+  return {[=](const Vector<dim>& a, const Vector<dim>& b) {
             return cross(in_plane<dim>(a), in_plane<dim>(b), slot.from, slot.to);
-          }};
+          },
+          inside};
 }
 
 template <int dim>
@@ -96,8 +104,8 @@ Effect<dim> effect_of(const ClosedFlaw& flaw)
       ++k;
     return k;
   };
-  return {[](const Vector<dim>&) { return false; },
-          [=](const Vector<dim>& a, const Vector<dim>& b) { return part_across(a, b) + 1 < flaw.points.size(); },
+  return {[=](const Vector<dim>& a, const Vector<dim>& b) { return part_across(a, b) + 1 < flaw.points.size(); },
+          {},
           [=](const Vector<dim>& a, const Vector<dim>& b) {
             const std::size_t k = part_across(a, b);
             const Vector<2> along = (flaw.points[k + 1] - flaw.points[k]).normalized();
@@ -111,8 +119,7 @@ Effect<dim> effect_of(const ClosedFlaw& flaw)
 template <int dim>
 Effect<dim> effect_of(const DiscFlaw& disc)
 {
-  return {[](const Vector<dim>&) { return false; },
-          [=](const Vector<dim>& a, const Vector<dim>& b) {
+  return {[=](const Vector<dim>& a, const Vector<dim>& b) {
             if constexpr (dim == 3)
               {
                 const double above_a = (a - disc.centre).dot(disc.normal);
@@ -124,6 +131,7 @@ Effect<dim> effect_of(const DiscFlaw& disc)
             else
               return false;
           },
+          {},
           [=](const Vector<dim>&, const Vector<dim>&) {
             if constexpr (dim == 3)
               return disc.normal;
@@ -169,8 +177,7 @@ template <int dim>
 std::vector<bool> in_largest_piece(const Specimen<dim>& specimen)
 {
   DisjointSets sets = connected_grains(specimen, Faces::all);
-  const auto sizes = sets.sizes();
-  const auto largest = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  const std::uint32_t largest = sets.largest();
   std::vector<bool> within(specimen.grains.size());
   for (std::uint32_t i = 0; i < within.size(); ++i)
     within[i] = sets.root(i) == largest;
@@ -181,11 +188,7 @@ std::vector<bool> in_largest_piece(const Specimen<dim>& specimen)
 template <int dim>
 void drop_joints(Specimen<dim>& specimen, const std::vector<bool>& dropped)
 {
-  std::vector<std::size_t> kept;
-  for (std::size_t j = 0; j < dropped.size(); ++j)
-    if (!dropped[j])
-      kept.push_back(j);
-  specimen.joints.keep(kept);
+  specimen.joints.keep_if([&](const std::size_t j) { return !dropped[j]; });
   specimen.report.n_joints = specimen.n_joints();
   specimen.report.coordination_number = 2.0 * double(specimen.n_joints()) / double(specimen.grains.size());
 }
@@ -218,7 +221,7 @@ void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_tak
       old_number.push_back(i);
   DisjointSets sets = connected_grains(rest, Faces::all);
   const auto sizes = sets.sizes();
-  const auto largest = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  const std::uint32_t largest = sets.largest();
   std::vector<bool> stays(rest.grains.size(), true);
   for (std::uint32_t i = 0; i < rest.grains.size(); ++i)
     if (const std::uint32_t root = sets.root(i); root != largest && of_body[old_number[i]])
@@ -387,7 +390,7 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes, con
         throw ParameterError(parameters_id<FlawParameters>(), fmt::format("{}: {}", title(shapes, k), error.what()));
       }
   // Numbers of joints are places in lists; those of the ones taken out are free.
-  number_joints(specimen);
+  specimen.number_joints();
 }
 
 template <int dim>

@@ -2,7 +2,6 @@
 
 #include "base/parameter_id.h"
 #include "base/random.h"
-#include "dem/flaws/smooth_planes.h"
 #include "dem/minerals/cells.h"
 #include "dem/minerals/parameters.h"
 #include "dem/specimen/parameters.h"
@@ -89,13 +88,11 @@ void make_rigid(Specimen<dim>& specimen, const std::vector<std::uint32_t>& order
   specimen.groups = std::move(group);
   specimen.groups_are_rigid = true;
   specimen.report.n_clumps = n_groups;
-  std::vector<std::size_t> kept;
-  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
-    if (specimen.groups[specimen.joints.grain_1[j]] != specimen.groups[specimen.joints.grain_2[j]])
-      kept.push_back(j);
-  specimen.joints.keep(kept);
+  auto& joints = specimen.joints;
+  joints.keep_if(
+    [&](const std::size_t j) { return specimen.groups[joints.grain_1[j]] != specimen.groups[joints.grain_2[j]]; });
   specimen.report.n_joints = specimen.n_joints();
-  number_joints(specimen);
+  specimen.number_joints();
 }
 } // namespace
 

@@ -1,5 +1,6 @@
 #include "dem/flaws/mineral_grains.h"
 
+#include "base/mapped.h"
 #include "base/parameter_id.h"
 #include "dem/flaws/smooth_planes.h"
 #include "dem/minerals/cells.h"
@@ -56,11 +57,7 @@ void put_in_mineral_grains(Specimen<dim>& specimen, const MineralGrainParameters
   check(specimen, boundary, size);
   const auto cells = throw_cells(specimen, {{"mineral grain", *wanted.mean_size}}, RandomStream::mineral_grains, size);
   specimen.groups = cells_of_grains(specimen, cells);
-  std::vector<Vector<dim>> centres;
-  centres.reserve(cells.size());
-  for (const Cell<dim>& cell : cells)
-    centres.push_back(cell.centre);
-  join_groups_smoothly(specimen, centres, boundary);
+  join_groups_smoothly(specimen, mapped<Vector<dim>>(cells, &Cell<dim>::centre), boundary);
 }
 
 template <int dim>

@@ -2,10 +2,9 @@
 
 #include "base/parameter_id.h"
 #include "base/random.h"
-#include "dem/laws/contact_motion.h"
 #include "dem/specimen/parameters.h"
+#include "dem/storage/smooth_joints.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,10 +46,8 @@ std::vector<Vector<2>> rectangle(const Slot& slot)
 template <int dim>
 std::string text_of(const Vector<dim>& point)
 {
-  std::string text = "(";
-  for (int c = 0; c < dim; ++c)
-    text += fmt::format("{}{:.4g}", c > 0 ? ", " : "", 1e3 * point[c]);
-  return text + ") mm";
+  const Vector<dim> in_mm = 1e3 * point;
+  return fmt::format("({:.4g}) mm", fmt::join(in_mm, ", "));
 }
 
 /// Stretch of a line, from `start` by multiples of `along`, that lies in a box of this size [m]; its end is not above its
@@ -224,9 +221,7 @@ std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size)
 std::vector<DiscFlaw> discs(const DiscSet& set, const Vector<3>& size)
 {
   Random random(set.seed, RandomStream::joint_sets);
-  const auto first = space::tangent_to({set.normal[0], set.normal[1], set.normal[2]});
-  const Vector<3> one(first[0], first[1], first[2]);
-  const Vector<3> other = set.normal.cross(one);
+  const auto [one, other] = plane_axes<3>(set.normal);
   std::vector<DiscFlaw> flaws;
   for (std::uint64_t k = 0; k < set.n; ++k)
     {

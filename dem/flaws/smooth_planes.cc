@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace feldspar
 {
@@ -16,16 +15,6 @@ std::string objection(const SmoothJointParameters& wanted)
     return "";
   constexpr double degree = std::numbers::pi / 180.0;
   return fmt::format("dilation must be at most the angle of friction, {:.3g} deg", std::atan(wanted.friction) / degree);
-}
-
-template <int dim>
-void number_joints(Specimen<dim>& specimen)
-{
-  auto& numbers = specimen.joints.number;
-  std::iota(numbers.begin(), numbers.end(), 0u);
-  auto next = std::uint32_t(numbers.size());
-  for (auto& joint : specimen.smooth_joints)
-    joint.number = next++;
 }
 
 template <int dim>
@@ -55,16 +44,11 @@ void put_smooth_joints(Specimen<dim>& specimen, const std::vector<SmoothPlace<di
       joint.state.bonded = bonded && !(joint.state.gap > 0.0); // a gap has nothing to bond
       specimen.smooth_joints.push_back(joint);
     }
-  std::sort(specimen.smooth_joints.begin(), specimen.smooth_joints.end(),
-            [](const auto& a, const auto& b) { return a.ends() < b.ends(); });
-  std::vector<std::size_t> kept;
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (!is_smooth[j])
-      kept.push_back(j);
-  joints.keep(kept);
+  std::ranges::sort(specimen.smooth_joints, {}, &SmoothJoint<dim>::ends);
+  joints.keep_if([&](const std::size_t j) { return !is_smooth[j]; });
   specimen.report.n_joints = specimen.n_joints();
   specimen.report.n_smooth_joints = specimen.smooth_joints.size();
-  number_joints(specimen);
+  specimen.number_joints();
 }
 
 template <int dim>
@@ -80,12 +64,8 @@ void keep_apart(Specimen<dim>& specimen, const std::function<bool(const Vector<d
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
-template void put_smooth_joints<2>(Specimen<2>&, const std::vector<SmoothPlace<2>>&, const SmoothJointParameters&,
-                                   bool);
-template void put_smooth_joints<3>(Specimen<3>&, const std::vector<SmoothPlace<3>>&, const SmoothJointParameters&,
-                                   bool);
+template decltype(put_smooth_joints<2>) put_smooth_joints<2>;
+template decltype(put_smooth_joints<3>) put_smooth_joints<3>;
 template void keep_apart<2>(Specimen<2>&, const std::function<bool(const Vector<2>&, const Vector<2>&)>&);
 template void keep_apart<3>(Specimen<3>&, const std::function<bool(const Vector<3>&, const Vector<3>&)>&);
-template void number_joints<2>(Specimen<2>&);
-template void number_joints<3>(Specimen<3>&);
 } // namespace feldspar

@@ -29,10 +29,6 @@ void put_smooth_joints(Specimen<dim>& specimen, const std::vector<SmoothPlace<di
 template <int dim>
 void keep_apart(Specimen<dim>& specimen, const std::function<bool(const Vector<dim>&, const Vector<dim>&)>& cuts);
 
-/// Numbers of joints are places in lists: those of the law first.
-template <int dim>
-void number_joints(Specimen<dim>& specimen);
-
 /// Why no smooth joint can be so, in the words of an error; empty if it can.
 std::string objection(const SmoothJointParameters& wanted);
 } // namespace feldspar

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,9 +37,7 @@ std::vector<unsigned int> mirrored_elements(const std::vector<FaceElement<dim>>&
           sum += std::abs(other.offset[c] - mirrored[c]);
         return sum;
       };
-      const auto found =
-        std::ranges::min_element(elements, [&](const auto& one, const auto& other) { return miss(one) < miss(other); });
-      order.push_back(unsigned(found - elements.begin()));
+      order.push_back(unsigned(std::ranges::min_element(elements, {}, miss) - elements.begin()));
     }
   return order;
 }
@@ -106,21 +106,20 @@ Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int,
   Joints<dim> of_cell = cell.joints;
   Joints<dim>& joints = all.joints;
   joints.resize_all(n_copies * n_joints);
-  std::vector<std::vector<double>> of_joint, of_segment;
-  of_cell.visit_per_joint([&](const std::string&, auto& row) { of_joint.emplace_back(row.begin(), row.end()); });
-  of_cell.visit_per_segment([&](const std::string&, auto& row) { of_segment.emplace_back(row.begin(), row.end()); });
-  std::size_t r = 0;
-  joints.visit_per_joint([&](const std::string&, auto& row) {
+  std::map<std::string, std::vector<double>> rows;
+  const auto note = [&](const std::string& name, auto& row) { rows[name].assign(row.begin(), row.end()); };
+  of_cell.visit_per_joint(note);
+  of_cell.visit_per_segment(note);
+  joints.visit_per_joint([&](const std::string& name, auto& row) {
+    const std::vector<double>& of_joints = rows[name];
     for (std::size_t j = 0; j < joints.size(); ++j)
-      row[j] = of_joint[r][j % n_joints];
-    ++r;
+      row[j] = of_joints[j % n_joints];
   });
-  r = 0;
-  joints.visit_per_segment([&](const std::string&, auto& row) {
+  joints.visit_per_segment([&](const std::string& name, auto& row) {
+    const std::vector<double>& of_segments = rows[name];
     for (unsigned int i = 0; i < joints.n_segments; ++i)
       for (std::size_t j = 0; j < joints.size(); ++j)
-        row[joints.segment(i, j)] = of_segment[r][of_cell.segment(i, j % n_joints)];
-    ++r;
+        row[joints.segment(i, j)] = of_segments[of_cell.segment(i, j % n_joints)];
   });
 
   const auto mirrored = mirrored_elements<dim>(joints.elements);
@@ -182,8 +181,7 @@ Specimen<dim> cored(Specimen<dim> cell, const BodyShape shape)
   for (std::uint32_t i = 0; i < n; ++i)
     if (is_cut[i])
       has_cut[groups.root(i)] = true;
-  const auto sizes = groups.sizes();
-  const auto body = std::uint32_t(std::ranges::max_element(sizes) - sizes.begin());
+  const std::uint32_t body = groups.largest();
   std::vector<bool> stays(n, false);
   std::size_t n_removed = 0;
   for (std::uint32_t i = 0; i < n; ++i)

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -24,14 +25,6 @@ namespace
 {
 constexpr double stress_tolerance = 0.01;      // of the packing stress
 constexpr double equilibrium_tolerance = 1e-3; // mean unbalanced over mean contact force
-
-template <int dim>
-void scale_radii(Dynamics<dim>& dynamics, const double factor)
-{
-  for (double& radius : dynamics.specimen().grains.radius)
-    radius *= factor;
-  dynamics.restart();
-}
 
 /// Runs until the forces balance; the share of the mean contact force that does not.
 template <int dim>
@@ -54,12 +47,12 @@ double relax(Dynamics<dim>& dynamics, const double tolerance, const unsigned int
 
 /// The grains of a packing; those that have left a periodic cell come in again from the other side.
 template <int dim>
-void place_in_box(Specimen<dim>& specimen, const std::vector<double>& radii, Components<dim> positions)
+void place_in_box(Specimen<dim>& specimen, Grains<dim> grains)
 {
   for (int c = 0; c < dim; ++c)
-    for (double& x : positions[c])
+    for (double& x : grains.position[c])
       x -= specimen.repeats(c) ? specimen.size[c] * std::floor(x / specimen.size[c]) : 0.0;
-  specimen.grains.place(radii, positions);
+  specimen.grains = std::move(grains);
 }
 
 /// Grains thrown in at random, let calm down without friction, then scaled until the mean stress is reached.
@@ -96,11 +89,9 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
   loose.grains.set_density(wanted.bulk_density / (1.0 - wanted.porosity), loose.thickness);
   if (wanted.packed_by_descent)
     {
-      const auto packing =
-        pack_by_descent(loose, wanted.packing_stress_ratio * specimen.particle_contact.modulus, check, check_within);
-      specimen.report.packing_stress = packing.stress;
-      specimen.report.radius_multiplier = packing.multiplier;
-      place_in_box<dim>(specimen, loose.grains.radius, loose.grains.position);
+      pack_by_descent(loose, wanted.packing_stress_ratio * specimen.particle_contact.modulus, check, check_within);
+      specimen.report = loose.report;
+      place_in_box(specimen, std::move(loose.grains));
       return;
     }
   Dynamics<dim> dynamics(std::move(loose), DynamicsParameters{}, ZeroForce::at_touch);
@@ -153,33 +144,26 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
       // is not in contact yet grows faster.
       const double growth = stress < 0.05 * target ? std::max(5e-4, 2.0 * wanted.packing_stress_ratio)
                                                    : std::clamp((target - stress) / modulus, -5e-3, 5e-3);
-      scale_radii(dynamics, 1.0 + growth);
+      for (double& radius : dynamics.specimen().grains.radius)
+        radius *= 1.0 + growth;
+      dynamics.restart();
       multiplier *= 1.0 + growth;
     }
   specimen.report.radius_multiplier = multiplier;
-  const auto& packed = dynamics.specimen().grains;
-  const auto own = std::ptrdiff_t(radii.size());
-  Components<dim> final_positions;
-  for (int c = 0; c < dim; ++c)
-    final_positions[c].assign(packed.position[c].begin(), packed.position[c].begin() + own);
-  place_in_box<dim>(specimen, {packed.radius.begin(), packed.radius.begin() + own}, std::move(final_positions));
+  std::vector<std::uint32_t> own(radii.size()); // without their images
+  std::iota(own.begin(), own.end(), 0u);
+  place_in_box(specimen, dynamics.specimen().grains.chosen(own));
 }
 
 /// Puts grains that are near each other in space near each other in memory, and numbers the pairs of them anew.
 template <int dim>
 void sort_in_space(Grains<dim>& grains, std::vector<GrainPair>& pairs)
 {
-  std::vector<double> radii;
-  Components<dim> positions;
-  std::vector<std::uint32_t> new_number(grains.size());
-  for (const std::uint32_t i : spatial_order(grains))
-    {
-      new_number[i] = std::uint32_t(radii.size());
-      radii.push_back(grains.radius[i]);
-      for (int c = 0; c < dim; ++c)
-        positions[c].push_back(grains.position[c][i]);
-    }
-  grains.place(radii, positions);
+  const std::vector<std::uint32_t> order = spatial_order(grains);
+  grains = grains.chosen(order);
+  std::vector<std::uint32_t> new_number(order.size());
+  for (std::uint32_t k = 0; k < order.size(); ++k)
+    new_number[order[k]] = k;
   for (auto& [first, second] : pairs)
     std::tie(first, second) = std::pair(std::minmax(new_number[first], new_number[second]));
 }

@@ -58,9 +58,7 @@ std::vector<PairGap<dim>> pair_gaps(
                       second < n_own ? PeriodicImage<dim>{second, {}} : images[second - n_own], branch});
     }
   check();
-  std::ranges::sort(gaps, [](const PairGap<dim>& a, const PairGap<dim>& b) {
-    return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
-  });
+  std::ranges::sort(gaps, {}, [](const PairGap<dim>& one) { return std::tie(one.gap, one.first, one.second); });
   return gaps;
 }
 
@@ -174,9 +172,7 @@ void install_joints(
                                            : n > 0 ? pairs.back().gap / mean_radius
                                                    : 0.0;
 
-  std::ranges::sort(pairs, [](const PairGap<dim>& a, const PairGap<dim>& b) {
-    return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-  });
+  std::ranges::sort(pairs, {}, [](const PairGap<dim>& one) { return std::tie(one.first, one.second); });
 
   check();
   auto& joints = specimen.joints;

@@ -13,10 +13,7 @@ namespace
 template <int dim>
 std::array<double, 3> place_of(const Specimen<dim>& specimen, const std::size_t grain)
 {
-  std::array<double, 3> place{};
-  for (int c = 0; c < dim; ++c)
-    place[c] = specimen.grains.position[c][grain];
-  return place;
+  return in_space<dim>(at<dim>(specimen.grains.position, grain));
 }
 
 template <int dim>
@@ -27,13 +24,9 @@ std::string lammps_data(const Specimen<dim>& specimen)
   std::string bonds;
   std::size_t n_bonds = 0;
   for (std::size_t j = 0; j < joints.size(); ++j)
-    for (unsigned int i = 0; i < joints.n_segments; ++i)
-      if (joints.bonded[joints.segment(i, j)] > 0.0)
-        {
-          fmt::format_to(std::back_inserter(bonds), "{} 1 {} {}\n", ++n_bonds, joints.grain_1[j] + 1,
-                         joints.grain_2[j] + 1);
-          break;
-        }
+    if (joints.holds(j))
+      fmt::format_to(std::back_inserter(bonds), "{} 1 {} {}\n", ++n_bonds, joints.grain_1[j] + 1,
+                     joints.grain_2[j] + 1);
   std::string text =
     fmt::format("LAMMPS data file: a packing of Feldspar, in metres\n\n{} atoms\n{} bonds\n1 atom types\n"
                 "1 bond types\n\n",

@@ -3,7 +3,6 @@
 #include "base/input_error.h"
 #include "base/parameter_id.h"
 #include "dem/genesis/packing_table.h"
-#include "dem/specimen/pair_search.h"
 #include "dem/specimen/periodic_images.h"
 
 #include <fmt/format.h>

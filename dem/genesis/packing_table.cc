@@ -2,6 +2,7 @@
 
 #include "base/contains.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/table/csv.h"
 #include "base/table/quantity.h"
@@ -156,17 +157,13 @@ private:
 
   NumberedLine numbers()
   {
-    NumberedLine row{number, {}};
-    for (const std::string_view word : words) // in columns that are not asked for, such as that of the material
-      row.values.push_back(value_of(word).value_or(std::nan("")));
-    return row;
+    // Words stand in columns that are not asked for, such as that of the material.
+    return {number, mapped<double>(words, [&](const auto word) { return value_of(word).value_or(std::nan("")); })};
   }
 
   static void name_columns(PackingLines& all, const std::vector<std::string_view>& names)
   {
-    all.names.clear();
-    for (const std::string_view one : names)
-      all.names.emplace_back(without_quotes(one));
+    all.names = mapped<std::string>(names, without_quotes);
   }
 
   /// A part of a dump; returns whether another follows.
@@ -278,14 +275,11 @@ std::optional<PackingColumn> column_of(const PackingLines& lines, const std::vec
           continue;
         if (symbol.empty())
           return PackingColumn{c, wanted.ends_with("_m") ? 1.0 : unit};
-        try
-          {
-            return PackingColumn{c, to_si(1.0, symbol, length)};
-          }
-        catch (const InputError& error)
-          {
-            throw InputError("{}:{}: {}", file, lines.line_of_names, error.what());
-          }
+        return rephrased(
+          [&, its_symbol = symbol] {
+            return PackingColumn{c, to_si(1.0, its_symbol, length)};
+          },
+          [&](const std::string& what) { return InputError("{}:{}: {}", file, lines.line_of_names, what); });
       }
   return std::nullopt;
 }

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <vector>
 
 namespace feldspar
@@ -76,25 +77,269 @@ template <int dim>
 class Descent
 {
 public:
-  Descent(const Specimen<dim>& loose, const std::function<void()>& check_within);
+  Descent(const Specimen<dim>& loose, const std::function<void()>& check_within)
+    : body(loose)
+    , check(check_within)
+  {
+    const auto& all = loose.grains;
+    const std::size_t n = all.size();
+    grains.resize(n);
+    velocity.assign(n, {});
+    force.assign(n, {});
+    inertia.resize(n);
+    const auto order = spatial_order(all);
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        for (int c = 0; c < dim; ++c)
+          grains[k][c] = all.position[c][order[k]];
+        const double radius = all.radius[order[k]];
+        grains[k].back() = radius;
+        // Σ k (R1 + R2)² over contacts, its stiffness, is some 12 k R² a grain: slower than the grains, so that it waits.
+        growth_inertia += 20.0 * radius * radius *
+                          touch_stiffness<dim>(loose.particle_contact.modulus, radius, radius, loose.thickness);
+      }
+    mean_radius = all.mean_radius();
+    largest_radius = *std::ranges::max_element(all.radius);
+    skin = 0.2 * mean_radius;
+    find_neighbours();
+  }
 
   /// Sums all forces and, where radii grow, the missing part of the wanted stress [Pa].
-  Sums sum_forces(double wanted_stress, bool radii_grow);
+  Sums sum_forces(const double wanted_stress, const bool radii_grow)
+  {
+    const double scale = multiplier();
+    const double stiffening = dim == 3 ? scale : 1.0; // stiffness grows with the radius in space, not in the plane
+    std::vector<Sums> of_block(n_blocks(grains.size()));
+    for_each_block(grains.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
+      Sums sums;
+      for (std::size_t i = begin; i < end; ++i)
+        {
+          const Place here = grains[i];
+          Components sum{};
+          for (std::uint32_t e = first[i]; e < first[i + 1]; ++e)
+            {
+              const Place& there = grains[neighbours[e].grain];
+              const Components& shift = shifts[neighbours[e].box];
+              Components branch;
+              double squared = 0.0;
+              for (int c = 0; c < dim; ++c)
+                {
+                  branch[c] = there[c] + shift[c] - here[c];
+                  squared += branch[c] * branch[c];
+                }
+              const double reach = scale * (here.back() + there.back());
+              if (squared >= reach * reach)
+                continue;
+              const double distance = std::sqrt(squared);
+              const double push = stiffening * neighbours[e].stiffness * (reach - distance);
+              for (int c = 0; c < dim; ++c)
+                sum[c] -= push / distance * branch[c];
+              sums.carried += push;
+              sums.n_ends += 1.0;
+              sums.virial += 0.5 * push * distance;
+            }
+          const double radius = scale * here.back();
+          visit_walls(here, radius, [&](const double distance, const Components& normal) {
+            const double push = Walls<dim>::stiffness(body, radius) * (radius - distance);
+            for (int c = 0; c < dim; ++c)
+              sum[c] += push * normal[c];
+            sums.virial += push * distance;
+          });
+          force[i] = sum;
+          double force_squared = 0.0;
+          double velocity_squared = 0.0;
+          for (int c = 0; c < dim; ++c)
+            {
+              force_squared += sum[c] * sum[c];
+              velocity_squared += velocity[i][c] * velocity[i][c];
+              sums.power += sum[c] * velocity[i][c];
+            }
+          sums.unbalanced += std::sqrt(force_squared);
+          sums.push += force_squared / inertia[i];
+          sums.motion += velocity_squared * inertia[i];
+        }
+      of_block[block] = sums;
+    });
+    Sums all;
+    for (const Sums& sums : of_block)
+      all += sums;
+    // The change of the overlap energy by a growth of all radii by d ln(multiplier), less the wanted stress's work.
+    growth_force = dim * body.volume() * wanted_stress - all.virial;
+    if (radii_grow)
+      {
+        all.power += growth_force * growth_velocity;
+        all.push += growth_force * growth_force / growth_inertia;
+        all.motion += growth_inertia * growth_velocity * growth_velocity;
+      }
+    return all;
+  }
+
   /// Kicks velocities, of which a share is kept, by the force over so long, then moves.
-  void advance(double time_step, double keep, double kick, bool radii_grow);
+  void advance(const double time_step, const double keep, const double kick, const bool radii_grow)
+  {
+    const double longest_way = 0.1 * mean_radius; // first overlaps are as large as grains
+    constexpr double most_growth = 1e-3;
+    std::vector<double> of_block(n_blocks(grains.size()));
+    for_each_block(grains.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
+      double farthest = 0.0;
+      for (std::size_t i = begin; i < end; ++i)
+        {
+          double squared = 0.0;
+          for (int c = 0; c < dim; ++c)
+            {
+              velocity[i][c] = keep * velocity[i][c] + kick / inertia[i] * force[i][c];
+              squared += velocity[i][c] * velocity[i][c];
+            }
+          const double way = time_step * std::sqrt(squared);
+          const double share = way > longest_way ? longest_way / way : 1.0;
+          double since_search = 0.0;
+          for (int c = 0; c < dim; ++c)
+            {
+              velocity[i][c] *= share;
+              grains[i][c] += time_step * velocity[i][c];
+              since_search += (grains[i][c] - at_search[i][c]) * (grains[i][c] - at_search[i][c]);
+            }
+          farthest = std::max(farthest, since_search);
+        }
+      of_block[block] = farthest;
+    });
+    if (radii_grow)
+      {
+        growth_velocity = std::clamp(keep * growth_velocity + kick / growth_inertia * growth_force,
+                                     -most_growth / time_step, most_growth / time_step);
+        growth += time_step * growth_velocity;
+      }
+    const double way = std::sqrt(*std::ranges::max_element(of_block));
+    const double grown = std::max(0.0, largest_radius * (std::exp(growth) - std::exp(growth_at_search)));
+    if (2.0 * (way + grown) > skin)
+      find_neighbours();
+  }
+
   void stop_growth() { growth_velocity = 0.0; }
 
   double multiplier() const { return std::exp(growth); }
   std::size_t n_grains() const { return grains.size(); }
-  Grains<dim> result() const;
+  Grains<dim> result() const
+  {
+    std::vector<double> radii;
+    feldspar::Components<dim> positions;
+    for (const Place& grain : grains)
+      {
+        radii.push_back(multiplier() * grain.back());
+        for (int c = 0; c < dim; ++c)
+          positions[c].push_back(grain[c]);
+      }
+    Grains<dim> all;
+    all.place(radii, positions);
+    return all;
+  }
 
 private:
   using Place = std::array<double, 4>; ///< position and, last, radius as drawn [m]: loaded as a whole
   using Components = std::array<double, dim>;
 
-  void find_neighbours();
+  void find_neighbours()
+  {
+    const std::size_t n = grains.size();
+    for (int c = 0; c < dim; ++c)
+      if (body.repeats(c))
+        for (Place& grain : grains)
+          grain[c] -= body.size[c] * std::floor(grain[c] / body.size[c]);
+    const Grains<dim> own = result();
+    const auto images = body.is_periodic() ? images_within(own, body.cell(), skin) : std::vector<PeriodicImage<dim>>();
+    const Grains<dim> all = with_images(own, images, body.cell());
+
+    std::map<std::array<int, dim>, std::uint32_t> number_of_box;
+    shifts.clear();
+    const auto box = [&](const std::array<int, dim>& boxes) {
+      const auto [entry, is_new] = number_of_box.try_emplace(boxes, std::uint32_t(shifts.size()));
+      if (is_new)
+        {
+          shifts.emplace_back();
+          for (int c = 0; c < dim; ++c)
+            shifts.back()[c] = boxes[c] * body.size[c];
+        }
+      return entry->second;
+    };
+    struct Pair
+    {
+      std::uint32_t one, two, box, box_back;
+    };
+    const std::uint32_t same_box = box({});
+    std::vector<Pair> pairs;
+    first.assign(n + 1, 0);
+    for (const auto& [one, two] : pairs_within(all, skin, check))
+      {
+        if (one >= n || (two >= n && !counts(one, images[two - n])))
+          continue;
+        Pair pair{one, two, same_box, same_box};
+        if (two >= n)
+          {
+            const auto& image = images[two - n];
+            auto back = image.boxes;
+            for (int& boxes : back)
+              boxes = -boxes;
+            pair = {one, image.owner, box(image.boxes), box(back)};
+          }
+        pairs.push_back(pair);
+        ++first[pair.one + 1];
+        ++first[pair.two + 1];
+      }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    neighbours.resize(2 * pairs.size());
+    // The inertia of a grain equals the stiffness of all its neighbours that could come into contact: (u_1 - u_2)² ≤ 2
+    // (u_1² + u_2²) then bounds the stiffness of any motion by twice its inertia, and steps up to √2 are stable. A wall
+    // counts half, because it does not move.
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        const double radius = grains[i].back();
+        inertia[i] = 0.0;
+        visit_walls(grains[i], own.radius[i] + skin,
+                    [&](double, const Components&) { inertia[i] += 0.5 * Walls<dim>::stiffness(body, radius); });
+      }
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (const Pair& pair : pairs)
+      {
+        const double stiffness = touch_stiffness<dim>(body.particle_contact.modulus, grains[pair.one].back(),
+                                                      grains[pair.two].back(), body.thickness);
+        neighbours[next[pair.one]++] = {pair.two, pair.box, stiffness};
+        neighbours[next[pair.two]++] = {pair.one, pair.box_back, stiffness};
+        inertia[pair.one] += stiffness;
+        inertia[pair.two] += stiffness;
+      }
+    for (std::size_t i = 0; i < n; ++i) // one that lies alone moves too
+      inertia[i] = std::max(inertia[i], touch_stiffness<dim>(body.particle_contact.modulus, grains[i].back(),
+                                                             grains[i].back(), body.thickness));
+    at_search = grains;
+    growth_at_search = growth;
+  }
+
+  /// Calls visit(distance from the centre, inward normal) for each wall nearer than `reach` [m].
   template <typename Visitor>
-  void visit_walls(const Place& grain, double reach, Visitor&& visit) const;
+  void visit_walls(const Place& grain, const double reach, Visitor&& visit) const
+  {
+    for (int axis = body.is_round() ? dim - 1 : 0; axis < dim; ++axis)
+      for (const double side : {1.0, -1.0})
+        if (const double distance = side > 0.0 ? grain[axis] : body.size[axis] - grain[axis];
+            !body.repeats(axis) && distance < reach)
+          {
+            Components normal{};
+            normal[axis] = side;
+            visit(distance, normal);
+          }
+    if (!body.is_round())
+      return;
+    const double x = grain[0] - 0.5 * body.size[0];
+    const double y = grain[1] - 0.5 * body.size[0];
+    const double from_axis = std::sqrt(x * x + y * y);
+    if (const double distance = 0.5 * body.size[0] - from_axis; distance < reach)
+      {
+        Components normal{};
+        normal[0] = -x / from_axis;
+        normal[1] = -y / from_axis;
+        visit(distance, normal);
+      }
+  }
 
   const Specimen<dim>& body;
   const std::function<void()>& check; ///< in the search for neighbours
@@ -120,267 +365,6 @@ private:
   std::vector<Components> shifts;
 };
 
-template <int dim>
-Descent<dim>::Descent(const Specimen<dim>& loose, const std::function<void()>& check_within)
-  : body(loose)
-  , check(check_within)
-{
-  const auto& all = loose.grains;
-  const std::size_t n = all.size();
-  grains.resize(n);
-  velocity.assign(n, {});
-  force.assign(n, {});
-  inertia.resize(n);
-  const auto order = spatial_order(all);
-  for (std::size_t k = 0; k < n; ++k)
-    {
-      for (int c = 0; c < dim; ++c)
-        grains[k][c] = all.position[c][order[k]];
-      const double radius = all.radius[order[k]];
-      grains[k].back() = radius;
-      // Σ k (R1 + R2)² over contacts, its stiffness, is some 12 k R² a grain: slower than the grains, so that it waits.
-      growth_inertia +=
-        20.0 * radius * radius * touch_stiffness<dim>(loose.particle_contact.modulus, radius, radius, loose.thickness);
-    }
-  mean_radius = all.mean_radius();
-  largest_radius = *std::ranges::max_element(all.radius);
-  skin = 0.2 * mean_radius;
-  find_neighbours();
-}
-
-template <int dim>
-Grains<dim> Descent<dim>::result() const
-{
-  std::vector<double> radii;
-  feldspar::Components<dim> positions;
-  for (const Place& grain : grains)
-    {
-      radii.push_back(multiplier() * grain.back());
-      for (int c = 0; c < dim; ++c)
-        positions[c].push_back(grain[c]);
-    }
-  Grains<dim> all;
-  all.place(radii, positions);
-  return all;
-}
-
-template <int dim>
-void Descent<dim>::find_neighbours()
-{
-  const std::size_t n = grains.size();
-  for (int c = 0; c < dim; ++c)
-    if (body.repeats(c))
-      for (Place& grain : grains)
-        grain[c] -= body.size[c] * std::floor(grain[c] / body.size[c]);
-  const Grains<dim> own = result();
-  const auto images = body.is_periodic() ? images_within(own, body.cell(), skin) : std::vector<PeriodicImage<dim>>();
-  const Grains<dim> all = with_images(own, images, body.cell());
-
-  std::map<std::array<int, dim>, std::uint32_t> number_of_box;
-  shifts.clear();
-  const auto box = [&](const std::array<int, dim>& boxes) {
-    const auto [entry, is_new] = number_of_box.try_emplace(boxes, std::uint32_t(shifts.size()));
-    if (is_new)
-      {
-        shifts.emplace_back();
-        for (int c = 0; c < dim; ++c)
-          shifts.back()[c] = boxes[c] * body.size[c];
-      }
-    return entry->second;
-  };
-  struct Pair
-  {
-    std::uint32_t one, two, box, box_back;
-  };
-  const std::uint32_t same_box = box({});
-  std::vector<Pair> pairs;
-  first.assign(n + 1, 0);
-  for (const auto& [one, two] : pairs_within(all, skin, check))
-    {
-      if (one >= n || (two >= n && !counts(one, images[two - n])))
-        continue;
-      Pair pair{one, two, same_box, same_box};
-      if (two >= n)
-        {
-          const auto& image = images[two - n];
-          auto back = image.boxes;
-          for (int& boxes : back)
-            boxes = -boxes;
-          pair = {one, image.owner, box(image.boxes), box(back)};
-        }
-      pairs.push_back(pair);
-      ++first[pair.one + 1];
-      ++first[pair.two + 1];
-    }
-  for (std::size_t i = 0; i < n; ++i)
-    first[i + 1] += first[i];
-  neighbours.resize(2 * pairs.size());
-  // The inertia of a grain equals the stiffness of all its neighbours that could come into contact: (u_1 - u_2)² ≤ 2
-  // (u_1² + u_2²) then bounds the stiffness of any motion by twice its inertia, and steps up to √2 are stable. A wall
-  // counts half, because it does not move.
-  for (std::size_t i = 0; i < n; ++i)
-    {
-      const double radius = grains[i].back();
-      inertia[i] = 0.0;
-      visit_walls(grains[i], own.radius[i] + skin,
-                  [&](double, const Components&) { inertia[i] += 0.5 * Walls<dim>::stiffness(body, radius); });
-    }
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  for (const Pair& pair : pairs)
-    {
-      const double stiffness = touch_stiffness<dim>(body.particle_contact.modulus, grains[pair.one].back(),
-                                                    grains[pair.two].back(), body.thickness);
-      neighbours[next[pair.one]++] = {pair.two, pair.box, stiffness};
-      neighbours[next[pair.two]++] = {pair.one, pair.box_back, stiffness};
-      inertia[pair.one] += stiffness;
-      inertia[pair.two] += stiffness;
-    }
-  for (std::size_t i = 0; i < n; ++i) // one that lies alone moves too
-    inertia[i] = std::max(inertia[i], touch_stiffness<dim>(body.particle_contact.modulus, grains[i].back(),
-                                                           grains[i].back(), body.thickness));
-  at_search = grains;
-  growth_at_search = growth;
-}
-
-/// Calls visit(distance from the centre, inward normal) for each wall nearer than `reach` [m].
-template <int dim>
-template <typename Visitor>
-void Descent<dim>::visit_walls(const Place& grain, const double reach, Visitor&& visit) const
-{
-  for (int axis = body.is_round() ? dim - 1 : 0; axis < dim; ++axis)
-    for (const double side : {1.0, -1.0})
-      if (const double distance = side > 0.0 ? grain[axis] : body.size[axis] - grain[axis];
-          !body.repeats(axis) && distance < reach)
-        {
-          Components normal{};
-          normal[axis] = side;
-          visit(distance, normal);
-        }
-  if (!body.is_round())
-    return;
-  const double x = grain[0] - 0.5 * body.size[0];
-  const double y = grain[1] - 0.5 * body.size[0];
-  const double from_axis = std::sqrt(x * x + y * y);
-  if (const double distance = 0.5 * body.size[0] - from_axis; distance < reach)
-    {
-      Components normal{};
-      normal[0] = -x / from_axis;
-      normal[1] = -y / from_axis;
-      visit(distance, normal);
-    }
-}
-
-template <int dim>
-Sums Descent<dim>::sum_forces(const double wanted_stress, const bool radii_grow)
-{
-  const double scale = multiplier();
-  const double stiffening = dim == 3 ? scale : 1.0; // stiffness grows with the radius in space, not in the plane
-  std::vector<Sums> of_block(n_blocks(grains.size()));
-  for_each_block(grains.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
-    Sums sums;
-    for (std::size_t i = begin; i < end; ++i)
-      {
-        const Place here = grains[i];
-        Components sum{};
-        for (std::uint32_t e = first[i]; e < first[i + 1]; ++e)
-          {
-            const Place& there = grains[neighbours[e].grain];
-            const Components& shift = shifts[neighbours[e].box];
-            Components branch;
-            double squared = 0.0;
-            for (int c = 0; c < dim; ++c)
-              {
-                branch[c] = there[c] + shift[c] - here[c];
-                squared += branch[c] * branch[c];
-              }
-            const double reach = scale * (here.back() + there.back());
-            if (squared >= reach * reach)
-              continue;
-            const double distance = std::sqrt(squared);
-            const double push = stiffening * neighbours[e].stiffness * (reach - distance);
-            for (int c = 0; c < dim; ++c)
-              sum[c] -= push / distance * branch[c];
-            sums.carried += push;
-            sums.n_ends += 1.0;
-            sums.virial += 0.5 * push * distance;
-          }
-        const double radius = scale * here.back();
-        visit_walls(here, radius, [&](const double distance, const Components& normal) {
-          const double push = Walls<dim>::stiffness(body, radius) * (radius - distance);
-          for (int c = 0; c < dim; ++c)
-            sum[c] += push * normal[c];
-          sums.virial += push * distance;
-        });
-        force[i] = sum;
-        double force_squared = 0.0;
-        double velocity_squared = 0.0;
-        for (int c = 0; c < dim; ++c)
-          {
-            force_squared += sum[c] * sum[c];
-            velocity_squared += velocity[i][c] * velocity[i][c];
-            sums.power += sum[c] * velocity[i][c];
-          }
-        sums.unbalanced += std::sqrt(force_squared);
-        sums.push += force_squared / inertia[i];
-        sums.motion += velocity_squared * inertia[i];
-      }
-    of_block[block] = sums;
-  });
-  Sums all;
-  for (const Sums& sums : of_block)
-    all += sums;
-  // The change of the overlap energy by a growth of all radii by d ln(multiplier), less the wanted stress's work.
-  growth_force = dim * body.volume() * wanted_stress - all.virial;
-  if (radii_grow)
-    {
-      all.power += growth_force * growth_velocity;
-      all.push += growth_force * growth_force / growth_inertia;
-      all.motion += growth_inertia * growth_velocity * growth_velocity;
-    }
-  return all;
-}
-
-template <int dim>
-void Descent<dim>::advance(const double time_step, const double keep, const double kick, const bool radii_grow)
-{
-  const double longest_way = 0.1 * mean_radius; // first overlaps are as large as grains
-  constexpr double most_growth = 1e-3;
-  std::vector<double> of_block(n_blocks(grains.size()));
-  for_each_block(grains.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
-    double farthest = 0.0;
-    for (std::size_t i = begin; i < end; ++i)
-      {
-        double squared = 0.0;
-        for (int c = 0; c < dim; ++c)
-          {
-            velocity[i][c] = keep * velocity[i][c] + kick / inertia[i] * force[i][c];
-            squared += velocity[i][c] * velocity[i][c];
-          }
-        const double way = time_step * std::sqrt(squared);
-        const double share = way > longest_way ? longest_way / way : 1.0;
-        double since_search = 0.0;
-        for (int c = 0; c < dim; ++c)
-          {
-            velocity[i][c] *= share;
-            grains[i][c] += time_step * velocity[i][c];
-            since_search += (grains[i][c] - at_search[i][c]) * (grains[i][c] - at_search[i][c]);
-          }
-        farthest = std::max(farthest, since_search);
-      }
-    of_block[block] = farthest;
-  });
-  if (radii_grow)
-    {
-      growth_velocity = std::clamp(keep * growth_velocity + kick / growth_inertia * growth_force,
-                                   -most_growth / time_step, most_growth / time_step);
-      growth += time_step * growth_velocity;
-    }
-  const double way = std::sqrt(*std::ranges::max_element(of_block));
-  const double grown = std::max(0.0, largest_radius * (std::exp(growth) - std::exp(growth_at_search)));
-  if (2.0 * (way + grown) > skin)
-    find_neighbours();
-}
-
 /// The treatment of the radii.
 enum class Stage
 {
@@ -392,8 +376,8 @@ enum class Stage
 } // namespace
 
 template <int dim>
-StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const std::function<void()>& check,
-                              const std::function<void()>& check_within)
+void pack_by_descent(Specimen<dim>& loose, const double stress, const std::function<void()>& check,
+                     const std::function<void()>& check_within)
 {
   constexpr unsigned int n_as_drawn = 300;
   constexpr unsigned int n_to_half = 100; // iterations in which the stress is halved
@@ -411,7 +395,6 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
   double time_step = first_time_step;
   double turn = first_turn;
   unsigned int n_downhill = 0;
-  StaticPacking packing;
   for (unsigned int k = 0;; ++k)
     {
       check();
@@ -425,24 +408,25 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
         }
       const bool radii_grow = stage != Stage::as_drawn;
       const Sums sums = descent.sum_forces(wanted_stress, radii_grow);
-      packing.n_iterations = k;
-      packing.multiplier = descent.multiplier();
-      packing.stress = sums.virial / (dim * loose.volume());
-      packing.unbalanced_ratio =
+      const double stress_now = sums.virial / (dim * loose.volume());
+      const double unbalanced_ratio = // mean unbalanced force over mean contact force
         sums.n_ends > 0.0 ? sums.unbalanced / double(descent.n_grains()) / (sums.carried / sums.n_ends) : 1.0;
-      const double error = std::abs(packing.stress / wanted_stress - 1.0);
-      if (stage == Stage::pressed && packing.unbalanced_ratio <= pressed_tolerance<dim> && error <= 0.1)
+      const double error = std::abs(stress_now / wanted_stress - 1.0);
+      if (stage == Stage::pressed && unbalanced_ratio <= pressed_tolerance<dim> && error <= 0.1)
         stage = Stage::let_go;
-      if (stage == Stage::at_pressure && packing.unbalanced_ratio <= force_tolerance &&
-          error <= packing_stress_tolerance)
-        break;
+      if (stage == Stage::at_pressure && unbalanced_ratio <= force_tolerance && error <= packing_stress_tolerance)
+        {
+          loose.report.packing_stress = stress_now;
+          loose.report.radius_multiplier = descent.multiplier();
+          break;
+        }
       if (k == most_iterations)
         throw ParameterError(
           parameters_id<SpecimenParameters>(),
           fmt::format(
             "no packing at rest at a mean stress of {:.3g} Pa within {} iterations (reached {:.3g} Pa, forces "
             "balanced to {:.2g}); another {}, {} or seed may do, or {} = dynamics",
-            stress, most_iterations, packing.stress, packing.unbalanced_ratio,
+            stress, most_iterations, stress_now, unbalanced_ratio,
             entry_in_words(parameter_id<&SpecimenParameters::porosity>()),
             entry_in_words(parameter_id<&SpecimenParameters::packing_stress_ratio>()),
             entry_in_words(parameter_id<&SpecimenParameters::packed_by_descent>())));
@@ -471,7 +455,6 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
       descent.advance(time_step, keep, kick, radii_grow);
     }
   loose.grains = descent.result();
-  return packing;
 }
 
 template decltype(pack_by_descent<2>) pack_by_descent<2>;

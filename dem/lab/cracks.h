@@ -19,8 +19,4 @@ struct CrackBetween
 template <int dim>
 std::vector<CrackBetween> cracks_of(const Dynamics<dim>& dynamics, const std::vector<Break>& breaks,
                                     double axial_strain);
-
-/// The record of a break: its place and normal as the grains stand now, at an axial strain of the test.
-template <int dim>
-Crack crack(const Dynamics<dim>& dynamics, const Break& event, double axial_strain);
 } // namespace feldspar

@@ -3,6 +3,7 @@
 #include "base/system/hdf5_archive.h"
 #include "dem/lab/servo.h"
 #include "dem/laws/flat_joint.h"
+#include "dem/storage/segment_place.h"
 
 #include <fmt/format.h>
 
@@ -38,12 +39,11 @@ FaceForce<dim> lost_force(const Joints<dim>& joints, const std::size_t joint, co
 {
   const auto placed = place_segment(joints.face(joint), joints.elements[number]);
   const auto& segment = placed.segment;
+  const auto of_joint = [&](const auto& row) { return row[joint]; };
   std::array<double, n_rotations<dim>> rotation;
-  for (std::size_t c = 0; c < rotation.size(); ++c)
-    rotation[c] = joints.rotation[c][joint];
+  std::ranges::transform(joints.rotation, rotation.begin(), of_joint);
   std::array<double, dim - 1> slip;
-  for (std::size_t c = 0; c < slip.size(); ++c)
-    slip[c] = joints.slip[c][joint];
+  std::ranges::transform(joints.slip, slip.begin(), of_joint);
   const double gap = flat_joint::gap_at(joints.opening[joint], rotation, placed.offset);
   const double slope = dim == 2 ? rotation[0] : 0.0;
   slip = flat_joint::slip_at(slip, rotation[0], placed.offset);
@@ -95,13 +95,7 @@ std::optional<Tensor<dim>> moment_of(const Dynamics<dim>& dynamics, const Segmen
         return std::nullopt;
       force = lost_force(body.joints, *joint, broken.segment);
       normal = at<dim>(body.joints.normal, *joint);
-      if constexpr (dim == 2)
-        axes = plane_axes<dim>(normal);
-      else
-        {
-          const Vector<3> tangent = at<3>(body.joints.tangent, *joint);
-          axes = {tangent, normal.cross(tangent)};
-        }
+      axes = face_axes(body.joints, *joint);
     }
   Vector<dim> on_grain_2 = force.across * normal;
   for (std::size_t c = 0; c < axes.size(); ++c)
@@ -345,7 +339,7 @@ template <int dim>
 template <typename Archive>
 void EmissionWatch<dim>::transfer(Archive& archive)
 {
-  archive.bytes("events", events);
+  archive.array("events", events);
   std::uint64_t n_sources = sources.size();
   archive.value("n_sources", n_sources);
   sources.resize(n_sources);
@@ -355,7 +349,7 @@ void EmissionWatch<dim>::transfer(Archive& archive)
       auto group = archive.subgroup(fmt::format("source_{}", k));
       group.value("event", source.event);
       group.value("end", source.end);
-      group.bytes("broken", source.broken);
+      group.array("broken", source.broken);
       source.sum_of_places.setZero();
       for (const BrokenSegment& one : source.broken)
         source.sum_of_places += Eigen::Map<const Vector<dim>>(one.place.data());

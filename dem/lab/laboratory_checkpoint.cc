@@ -19,10 +19,9 @@ void LabTest<dim>::transfer(Archive& archive)
   set_up.dynamics.transfer(dynamics);
   auto emitted = archive.subgroup("emission");
   emission.transfer(emitted);
-  archive.bytes("curve", record.curve);
-  archive.bytes("cracks", record.cracks);
-  for (std::size_t c = 0; c < gauge_positions.size(); ++c)
-    archive.array(fmt::format("gauge_position_{}", "xyz"[c]), gauge_positions[c]);
+  archive.array("curve", record.curve);
+  archive.array("cracks", record.cracks);
+  transfer_components(archive, "gauge_position", gauge_positions);
   archive.value("wall_time", wall_time);
   archive.value("time_at_start", time_at_start);
   archive.value("time_of_last_row", time_of_last_row);
@@ -35,9 +34,7 @@ void LabTest<dim>::transfer(Archive& archive)
     archive.value("shortening_at_start", shortening_at_start);
   if (set_up.loading.opening)
     archive.value("opening_at_start", opening_at_start);
-  std::uint32_t has_ended = ended;
-  archive.value("ended", has_ended);
-  ended = has_ended;
+  transfer_flag(archive, "ended", ended);
   archive.array("n_broken_segments", n_broken_segments);
   archive.value("rows_between_snapshots", rows_between_snapshots);
   std::uint64_t n_snapshots = snapshots.size();

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
 namespace feldspar
@@ -64,29 +65,23 @@ struct LaboratoryProtocol
   std::optional<Rate> strain_rate = {};
   std::array<OwnEntries, 5> own_entries = {}; ///< up to the first null
   PeakForecast forecast = {};
-  bool takes_cylinders = false;           ///< in space; boxes are taken by all
-  bool takes_clumps = false;              ///< in the plane: specimens of rigid groups of grains
-  std::optional<SetUp<2>> set_up_2d = {}; ///< none where the test is not made in the plane
-  std::optional<SetUp<3>> set_up_3d = {};
-  std::optional<BodySize<2>> body_size_2d = {}; ///< none where the specimen itself is tested
-  std::optional<BodySize<3>> body_size_3d = {};
+  bool takes_cylinders = false; ///< in space; boxes are taken by all
+  bool takes_clumps = false;    ///< in the plane: specimens of rigid groups of grains
+  /// In the plane and in space; none where the test is not made there.
+  std::tuple<std::optional<SetUp<2>>, std::optional<SetUp<3>>> set_ups = {};
+  /// None where the specimen itself is tested.
+  std::tuple<std::optional<BodySize<2>>, std::optional<BodySize<3>>> body_sizes = {};
 
   template <int dim>
-  const std::optional<SetUp<dim>>& set_up() const
+  constexpr const std::optional<SetUp<dim>>& set_up() const
   {
-    if constexpr (dim == 2)
-      return set_up_2d;
-    else
-      return set_up_3d;
+    return std::get<dim - 2>(set_ups);
   }
 
   template <int dim>
-  const std::optional<BodySize<dim>>& body_size() const
+  constexpr const std::optional<BodySize<dim>>& body_size() const
   {
-    if constexpr (dim == 2)
-      return body_size_2d;
-    else
-      return body_size_3d;
+    return std::get<dim - 2>(body_sizes);
   }
 };
 
@@ -100,7 +95,7 @@ constexpr LaboratoryProtocol complete(const LaboratoryProtocol& protocol)
     throw std::logic_error("a laboratory test pulls, sign = 1, or presses, sign = -1");
   if (!protocol.strain_rate)
     throw std::logic_error("a laboratory test needs the entry of its strain rate");
-  if (!protocol.set_up_2d && !protocol.set_up_3d)
+  if (!protocol.set_up<2>() && !protocol.set_up<3>())
     throw std::logic_error("a laboratory test needs a set-up");
   return protocol;
 }

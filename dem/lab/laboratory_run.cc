@@ -1,13 +1,12 @@
 #include "dem/lab/laboratory_run.h"
 
+#include "base/mapped.h"
 #include "base/parameter_id.h"
 #include "dem/lab/cracks.h"
-#include "dem/lab/gravity.h"
 #include "dem/lab/seating.h"
 #include "dem/lab/servo.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/rigid_groups.h"
-#include "laboratory/finite_row.h"
 
 #include <fmt/format.h>
 
@@ -401,12 +400,8 @@ TestOutcome LabTest<dim>::outcome(const bool interrupted, std::vector<Snapshot> 
       record.curve.back().step == set_up.dynamics.n_steps())
     shots.push_back(snapshot());
   for (const auto& flaw : specimen.flaws)
-    {
-      FlawPicture picture{flaw.name, flaw.open, {}};
-      for (const auto& point : flaw.outline)
-        picture.outline.push_back(in_space<dim>(point));
-      result.appearance.flaws.push_back(std::move(picture));
-    }
+    result.appearance.flaws.push_back(
+      {flaw.name, flaw.open, mapped<std::array<double, 3>>(flaw.outline, in_space<dim>)});
 
   // Grains are given as they last stood right if numbers went wrong.
   const bool went_wrong = !record.failure.empty();
@@ -421,9 +416,8 @@ TestOutcome LabTest<dim>::outcome(const bool interrupted, std::vector<Snapshot> 
       position[c] = shots.back().position[c][i];
     return position;
   };
-  const auto loaded = std::ranges::max_element(shots, [](const Snapshot& one, const Snapshot& other) {
-    return std::abs(one.axial_stress) < std::abs(other.axial_stress);
-  });
+  const auto loaded =
+    std::ranges::max_element(shots, {}, [](const Snapshot& one) { return std::abs(one.axial_stress); });
   const auto mean_stress_of = [&](const std::size_t i) {
     if (loaded == shots.end() || loaded->stress[0].size() <= i)
       return 0.0;

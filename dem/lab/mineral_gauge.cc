@@ -31,7 +31,6 @@ MineralGauge<dim>::MineralGauge(const Specimen<dim>& specimen, const Components<
           ++n_ends[specimen.mineral[end]];
         }
     }
-  inverse_moment.reserve(moment.size());
   for (std::size_t k = 0; k < moment.size(); ++k)
     inverse_moment.push_back(n_ends[k] > dim ? Tensor<dim>(moment[k].inverse())
                                              : Tensor<dim>::Constant(std::numeric_limits<double>::quiet_NaN()));

@@ -18,22 +18,6 @@ double servo_speed(const double missing_force, const double stiffness, const dou
 }
 
 template <int dim>
-void hold_pressure(Dynamics<dim>& dynamics, const std::size_t wall, const double area, const double target,
-                   const double largest_speed)
-{
-  Wall& moved = dynamics.wall(wall);
-  moved.velocity =
-    moved.side * servo_speed(target * area - dynamics.wall_force(wall), dynamics.wall_stiffness_in_touch(wall),
-                             dynamics.time_step(), largest_speed, moved.servo_integral);
-}
-
-template <int dim>
-double wave_speed(const Specimen<dim>& specimen)
-{
-  return std::sqrt(specimen.particle_contact.modulus / specimen.bulk_density);
-}
-
-template <int dim>
 void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const std::function<void()>& check)
 {
   constexpr double most_ramps = 20.0;
@@ -51,10 +35,6 @@ void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const st
   while (dynamics.time() < 1.5 * ramp.duration || ramp.largest_deviation() >= ramp.tolerance);
 }
 
-template double wave_speed<2>(const Specimen<2>&);
-template double wave_speed<3>(const Specimen<3>&);
 template void raise_pressures<2>(Dynamics<2>&, const PressureRamp&, const std::function<void()>&);
 template void raise_pressures<3>(Dynamics<3>&, const PressureRamp&, const std::function<void()>&);
-template void hold_pressure<2>(Dynamics<2>&, std::size_t, double, double, double);
-template void hold_pressure<3>(Dynamics<3>&, std::size_t, double, double, double);
 } // namespace feldspar

@@ -4,6 +4,7 @@
 #include "dem/dynamics/dynamics.h"
 #include "laboratory/kinds.h"
 
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -16,7 +17,14 @@ double servo_speed(double missing_force, double stiffness, double time_step, dou
 /// Moves a wall so that its pressure comes to a target: v = e + I with e = G (P_0 - P), I += 0.05 e, both within
 /// ±largest_speed; docs/theory.md §4.3. The proportional part alone lags behind a specimen that widens steadily.
 template <int dim>
-void hold_pressure(Dynamics<dim>& dynamics, std::size_t wall, double area, double target, double largest_speed);
+void hold_pressure(Dynamics<dim>& dynamics, const std::size_t wall, const double area, const double target,
+                   const double largest_speed)
+{
+  Wall& moved = dynamics.wall(wall);
+  moved.velocity =
+    moved.side * servo_speed(target * area - dynamics.wall_force(wall), dynamics.wall_stiffness_in_touch(wall),
+                             dynamics.time_step(), largest_speed, moved.servo_integral);
+}
 
 /// Pressures on walls that are raised together.
 struct PressureRamp
@@ -32,7 +40,10 @@ struct PressureRamp
 
 /// The speed of a wave along a rod of the specimen's rock, by the modulus of its particle contacts [m/s].
 template <int dim>
-double wave_speed(const Specimen<dim>& specimen);
+double wave_speed(const Specimen<dim>& specimen)
+{
+  return std::sqrt(specimen.particle_contact.modulus / specimen.bulk_density);
+}
 
 /// Raises the pressures in proportion to time, so as not to hit the specimen, and goes on until half a ramp more has passed
 /// and all are held within the tolerance. `check` is called before each step and may throw. Throws InputError where they are not

@@ -3,9 +3,12 @@
 #include "dem/dynamics/dynamics.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
+#include "dem/lab/servo.h"
 #include "laboratory/own_entries.h"
 #include "laboratory/parameters.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -47,6 +50,25 @@ double stress_of(const Dynamics<dim>& dynamics, const Press<dim>& press)
   for (const std::size_t wall : press.walls)
     force += dynamics.wall_force(wall) / double(press.walls.size());
   return -force / press.area(dynamics);
+}
+
+/// Moves the walls of a press so that their pressures come to a target [Pa], as hold_pressure().
+template <int dim>
+void hold(Dynamics<dim>& dynamics, const Press<dim>& press, const double target, const double largest_speed)
+{
+  const double area = press.area(dynamics);
+  for (const std::size_t wall : press.walls)
+    hold_pressure(dynamics, wall, area, target, largest_speed);
+}
+
+/// The largest deviation of the pressure on a wall from a target [Pa], relative.
+template <int dim>
+double deviation(const Dynamics<dim>& dynamics, const Press<dim>& press, const double target)
+{
+  double largest = 0.0;
+  for (const std::size_t wall : press.walls)
+    largest = std::max(largest, std::abs(dynamics.wall_force(wall) / press.area(dynamics) / target - 1.0));
+  return largest;
 }
 
 /// The lateral boundary of a specimen that is pressed between platens.

@@ -180,7 +180,7 @@ inline Turn<simd::Pack> make_turn(const simd::Pack& squared)
   return turn;
 }
 
-/// What is added to v is as small as the turn. Terms that stay the same from step to step, such as what v has along φ, would be rounded
+/// The change of v is as small as the turn. Terms that stay the same from step to step, such as what v has along φ, would be rounded
 /// the same way each time, and the vector would drift.
 template <typename Real>
 Triple<Real> turned(const Triple<Real>& v, const Triple<Real>& angle, const Turn<Real>& turn)

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "dem/laws/parameters.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -134,15 +132,6 @@ WholeFace<dim> whole_face(const std::vector<FaceElement<dim>>& elements)
 /// Division of a face into elements: {N} in the plane, {N_r, N_α} in space.
 template <int dim>
 using FaceDivision = std::array<unsigned int, dim - 1>;
-
-template <int dim>
-FaceDivision<dim> face_division(const FlatJointParameters& joint)
-{
-  if constexpr (dim == 2)
-    return {joint.n_segments};
-  else
-    return {joint.n_rings, joint.n_sectors};
-}
 
 template <int dim>
 std::vector<FaceElement<dim>> face_elements(const FaceDivision<dim>& division)

@@ -206,7 +206,13 @@ struct FlatJoint : CarriedPlane<dim>
   template <typename Real>
   using Update = flat_joint::SegmentUpdate<dim, Real>;
 
-  static FaceDivision<dim> division(const Parameters& wanted) { return face_division<dim>(wanted); }
+  static FaceDivision<dim> division(const Parameters& wanted)
+  {
+    if constexpr (dim == 2)
+      return {wanted.n_segments};
+    else
+      return {wanted.n_rings, wanted.n_sectors};
+  }
   /// μ of broken segments.
   static double friction(const Parameters& wanted, const ParticleContactParameters&) { return wanted.friction; }
 

@@ -50,12 +50,8 @@ struct ElementsOfOneFace
 template <typename State, int dim, typename Real>
 concept ElementState = requires(State state)
 {
-  {
-    state.shear_stress
-    } -> std::convertible_to<std::array<Real, dim - 1>>; // τ [Pa]
-  {
-    state.bonded
-    } -> std::convertible_to<decltype(Real() < Real())>;
+  requires std::convertible_to<decltype(state.shear_stress), std::array<Real, dim - 1>>; // τ [Pa]
+  requires std::convertible_to<decltype(state.bonded), decltype(Real() < Real())>;
 };
 
 /// Functions by which a joint's plane follows its grains and its forces reach them; CarriedPlane of contact_motion.h is
@@ -65,12 +61,8 @@ concept MovesWithItsGrains = requires(const ContactFrame<dim, Real> frame, const
                                       const Real length, const std::array<Real, dim - 1> shear_force,
                                       const std::array<Real, n_rotations<dim>> turn)
 {
-  {
-    Law::motion(frame, centre, centre, length, turn, turn)
-    } -> std::same_as<ContactMotion<dim, Real>>;
-  {
-    Law::force(frame, length, length, shear_force, turn)
-    } -> std::same_as<ContactForce<dim, Real>>;
+  requires std::same_as<decltype(Law::motion(frame, centre, centre, length, turn, turn)), ContactMotion<dim, Real>>;
+  requires std::same_as<decltype(Law::force(frame, length, length, shear_force, turn)), ContactForce<dim, Real>>;
 };
 
 /// Forces of a face after a step, and the new states of its elements.
@@ -80,9 +72,7 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
   requires(const Law law, const Face<Real> face, const std::vector<FaceElement<dim>> elements,
            const FaceMotion<dim, Real> motion, ElementsOfOneFace<Law, Real> states)
 {
-  {
-    law.update(face, elements, motion, states)
-    } -> std::same_as<FaceResultants<dim, Real>>;
+  requires std::same_as<decltype(law.update(face, elements, motion, states)), FaceResultants<dim, Real>>;
 };
 
 /// A law may know the response of a face whose elements are all bonded, and store nothing else, from its motion since
@@ -96,33 +86,22 @@ concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> who
                                  const std::array<Real, dim - 1> slip, const typename Law::template State<Real> state)
 {
   // True if certainly no bond breaks; the bond has the least strengths of the face.
-  {
-    Law::surely_holds(face, whole, least, opening, rotation, slip)
-    } -> std::same_as<decltype(Real() < Real())>;
+  requires std::same_as<decltype(Law::surely_holds(face, whole, least, opening, rotation, slip)),
+                        decltype(Real() < Real())>;
   // True if a face without bonds is certainly open. If it was open before and had no shear stress, it carries nothing
   // and its elements stay as they are.
-  {
-    Law::surely_open(face, whole, opening, rotation)
-    } -> std::same_as<decltype(Real() < Real())>;
-  {
-    Law::whole_response(face, whole, opening, rotation, slip)
-    } -> std::same_as<FaceResultants<dim, Real>>;
-  {
-    Law::whole_state(face, element, rotation, slip)
-    } -> std::same_as<typename Law::template State<Real>>;
+  requires std::same_as<decltype(Law::surely_open(face, whole, opening, rotation)), decltype(Real() < Real())>;
+  requires std::same_as<decltype(Law::whole_response(face, whole, opening, rotation, slip)), FaceResultants<dim, Real>>;
+  requires std::same_as<decltype(Law::whole_state(face, element, rotation, slip)), typename Law::template State<Real>>;
   // True if a bonded element has stored more than whole_state() tells: its face no longer responds as one.
-  {
-    Law::remembers(state)
-    } -> std::same_as<decltype(Real() < Real())>;
+  requires std::same_as<decltype(Law::remembers(state)), decltype(Real() < Real())>;
 };
 
 /// A law may have bonds that dissipate before they break; the energy of a break is then all that its bond has dissipated.
 template <typename Law, int dim>
 concept DissipatesBeforeBreaks = requires(const typename Law::template State<double> state)
 {
-  {
-    Law::dissipated_so_far(state)
-    } -> std::same_as<double>; // of a bond that holds [J]
+  requires std::same_as<decltype(Law::dissipated_so_far(state)), double>; // of a bond that holds [J]
 };
 
 template <typename Law, int dim>
@@ -136,60 +115,34 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
            const Motion<dim> motion)
 {
   // The name, by which the input chooses it.
-  {
-    Law::name
-    } -> std::convertible_to<std::string_view>;
+  requires std::convertible_to<decltype(Law::name), std::string_view>;
   // Numbers of the law's own in the state of an element.
-  {
-    Law::n_more
-    } -> std::convertible_to<std::size_t>;
+  requires std::convertible_to<decltype(Law::n_more), std::size_t>;
   // True if a face persists when it has lost its last bond; otherwise its grains are then in contact without a face.
-  {
-    Law::face_outlives_bonds
-    } -> std::convertible_to<bool>;
+  requires std::convertible_to<decltype(Law::face_outlives_bonds), bool>;
   // True if such a face is removed once its sides have slid past each other; otherwise only once they are far apart.
-  {
-    Law::face_can_slide_off
-    } -> std::convertible_to<bool>;
+  requires std::convertible_to<decltype(Law::face_can_slide_off), bool>;
 
   // Installation.
-  {
-    Law::division(wanted)
-    } -> std::same_as<FaceDivision<dim>>;
-  {
-    Law::draw_bonds(wanted, std::size_t(1), random)
-    } -> std::same_as<std::vector<Bond<double>>>;
+  requires std::same_as<decltype(Law::division(wanted)), FaceDivision<dim>>;
+  requires std::same_as<decltype(Law::draw_bonds(wanted, std::size_t(1), random)), std::vector<Bond<double>>>;
   // μ of a face, from the law's parameters or those of pairs without a face.
-  {
-    Law::friction(wanted, contact)
-    } -> std::same_as<double>;
+  requires std::same_as<decltype(Law::friction(wanted, contact)), double>;
 
   // Stored in a face, from its opening, its rotation and the states of its elements [J].
-  {
-    law.stored_energy(face, elements, 0.0, rotation, state_of)
-    } -> std::same_as<double>;
+  requires std::same_as<decltype(law.stored_energy(face, elements, 0.0, rotation, state_of)), double>;
 
   // Springs for the time step: no state of the face is stiffer.
-  {
-    law.stiffest(face)
-    } -> std::same_as<FaceSprings>;
+  requires std::same_as<decltype(law.stiffest(face)), FaceSprings>;
 
   // In small strains: whether a face responds linearly as long as all its bonds hold and none has stored anything, with
   // the stiffness below, and none of its elements has a shear stress to store.
-  {
-    Law::linear_while_bonded
-    } -> std::convertible_to<bool>;
+  requires std::convertible_to<decltype(Law::linear_while_bonded), bool>;
   // True if representative volumes find equilibria of its faces event by event: coupling/network has its
   // face_response().
-  {
-    Law::has_equilibria
-    } -> std::convertible_to<bool>;
+  requires std::convertible_to<decltype(Law::has_equilibria), bool>;
   // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond carries.
-  {
-    law.bonded_stiffness(face, elements.front(), rows)
-    } -> std::same_as<JointStiffness<dim>>;
-  {
-    law.bond_stress(face, law.strain(rows, motion))
-    } -> std::same_as<BondStress>;
+  requires std::same_as<decltype(law.bonded_stiffness(face, elements.front(), rows)), JointStiffness<dim>>;
+  requires std::same_as<decltype(law.bond_stress(face, law.strain(rows, motion))), BondStress>;
 };
 } // namespace feldspar

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "base/simd.h"
 #include "dem/laws/flat_joint.h"
 #include "dem/laws/joint_law.h"
 #include "dem/laws/parallel_bond.h"
 #include "dem/laws/softening_flat_joint.h"
 
-#include <concepts>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -62,4 +62,11 @@ using JointLaws = JointLawList<FlatJoint, ParallelBond, SofteningFlatJoint>;
 template <int dim>
 using AnyJointLaw = JointLaws::Any<dim>;
 using JointParameters = JointLaws::Parameters;
+
+/// Returns whether the law responds for a face whose bonds all hold as for one element. Such joints take less work than others.
+template <int dim>
+bool responds_as_one(const AnyJointLaw<dim>& any_law)
+{
+  return std::visit([]<typename Law>(const Law&) { return RespondsAsOne<Law, dim, simd::Pack>; }, any_law);
+}
 } // namespace feldspar

@@ -140,9 +140,7 @@ struct ParallelBond : CarriedPlane<dim>
 
   static std::vector<Bond<double>> draw_bonds(const Parameters& wanted, const std::size_t n_elements, Random& random)
   {
-    std::vector<Bond<double>> bonds(n_elements);
-    std::generate(bonds.begin(), bonds.end(), [&] { return draw_bond(wanted, random); });
-    return bonds;
+    return std::vector<Bond<double>>(n_elements, draw_bond(wanted, random));
   }
 
   template <typename Real, typename Elements>

@@ -9,17 +9,14 @@
 
 namespace feldspar
 {
-/// The flat joint with segments that soften (softening_segment.h), as a joint law (joint_law.h).
+/// The flat joint with segments that soften (softening_segment.h), as a joint law (joint_law.h). What the flat joint says of
+/// whole faces holds as long as no segment has softened.
 template <int dim>
-struct SofteningFlatJoint : CarriedPlane<dim>
+struct SofteningFlatJoint : FlatJoint<dim>
 {
   using Parameters = SofteningFlatJointParameters;
   static constexpr std::string_view name = "softening flat joint";
   static constexpr std::size_t n_more = 3;
-  static constexpr bool face_outlives_bonds = true;
-  static constexpr bool face_can_slide_off = true;
-  static constexpr bool linear_while_bonded = true;
-  static constexpr bool has_equilibria = true;
 
   SofteningFlatJoint() = default;
   SofteningFlatJoint(const Parameters& wanted, const ParticleContactParameters&)
@@ -42,16 +39,6 @@ struct SofteningFlatJoint : CarriedPlane<dim>
   template <typename Real>
   using Update = softening::Update<dim, Real>;
 
-  static FaceDivision<dim> division(const Parameters& wanted) { return FlatJoint<dim>::division(wanted); }
-  static double friction(const Parameters& wanted, const ParticleContactParameters& contact)
-  {
-    return FlatJoint<dim>::friction(wanted, contact);
-  }
-  static std::vector<Bond<double>> draw_bonds(const Parameters& wanted, const std::size_t n_elements, Random& random)
-  {
-    return FlatJoint<dim>::draw_bonds(wanted, n_elements, random);
-  }
-
   template <typename Real, typename Elements>
   FaceResultants<dim, Real> update(const Face<Real>& face, const std::vector<FaceElement<dim>>& elements,
                                    const FaceMotion<dim, Real>& motion, Elements&& states) const
@@ -63,28 +50,6 @@ struct SofteningFlatJoint : CarriedPlane<dim>
       face, elements, motion, states);
   }
 
-  /// Test of the flat joint, valid as long as no segment has softened.
-  template <typename Real>
-  static auto surely_holds(const Face<Real>& face, const WholeFace<dim>& whole, const Bond<Real>& least,
-                           const Real& opening, const std::array<Real, n_rotations<dim>>& rotation,
-                           const std::array<Real, dim - 1>& slip)
-  {
-    return FlatJoint<dim>::surely_holds(face, whole, least, opening, rotation, slip);
-  }
-  template <typename Real>
-  static auto surely_open(const Face<Real>& face, const WholeFace<dim>& whole, const Real& opening,
-                          const std::array<Real, n_rotations<dim>>& rotation)
-  {
-    return FlatJoint<dim>::surely_open(face, whole, opening, rotation);
-  }
-  template <typename Real>
-  static FaceResultants<dim, Real> whole_response(const Face<Real>& face, const WholeFace<dim>& whole,
-                                                  const Real& opening,
-                                                  const std::array<Real, n_rotations<dim>>& rotation,
-                                                  const std::array<Real, dim - 1>& slip)
-  {
-    return FlatJoint<dim>::whole_response(face, whole, opening, rotation, slip);
-  }
   template <typename Real>
   static State<Real> whole_state(const Face<Real>& face, const FaceElement<dim>& element,
                                  const std::array<Real, n_rotations<dim>>& rotation,
@@ -118,23 +83,6 @@ struct SofteningFlatJoint : CarriedPlane<dim>
 
   /// The energy that a bond has dissipated while it holds [J].
   static double dissipated_so_far(const State<double>& state) { return state.bonded ? state.more[2] : 0.0; }
-
-  static FaceSprings stiffest(const Face<double>& face) { return FlatJoint<dim>::stiffest(face); }
-
-  /// Stiffness of the flat joint, valid as long as no segment has softened.
-  JointStiffness<dim> bonded_stiffness(const Face<double>& face, const FaceElement<dim>& element,
-                                       const ElementRows<dim>& rows) const
-  {
-    return FlatJoint<dim>().bonded_stiffness(face, element, rows);
-  }
-  static Vector<dim> strain(const ElementRows<dim>& rows, const Motion<dim>& motion)
-  {
-    return FlatJoint<dim>::strain(rows, motion);
-  }
-  static BondStress bond_stress(const Face<double>& face, const Vector<dim>& strain)
-  {
-    return FlatJoint<dim>::bond_stress(face, strain);
-  }
 
 private:
   double over_opening = 0.0; ///< w [m]

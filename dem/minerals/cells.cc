@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -84,8 +85,7 @@ std::vector<Cell<dim>> throw_cells(const Specimen<dim>& specimen, const std::vec
     kind_of.insert(kind_of.end(), number_of_cells(specimen, kinds[k], kinds.size() == 1, size), k);
   Random further(specimen.seed, RandomStream::kinds_of_cells);
   further.shuffle(kind_of);
-  std::stable_sort(kind_of.begin(), kind_of.end(),
-                   [&](const std::size_t a, const std::size_t b) { return kinds[a].size > kinds[b].size; });
+  std::ranges::stable_sort(kind_of, std::greater(), [&](const std::size_t kind) { return kinds[kind].size; });
   Random random(specimen.seed, stream);
   std::vector<Cell<dim>> cells;
   while (cells.size() < kind_of.size())
@@ -124,10 +124,8 @@ std::vector<std::uint32_t> cells_of_grains(const Specimen<dim>& specimen, const 
   return cell_of;
 }
 
-template std::vector<Cell<2>> throw_cells<2>(const Specimen<2>&, const std::vector<CellKind>&, RandomStream,
-                                             const ParameterId&);
-template std::vector<Cell<3>> throw_cells<3>(const Specimen<3>&, const std::vector<CellKind>&, RandomStream,
-                                             const ParameterId&);
+template decltype(throw_cells<2>) throw_cells<2>;
+template decltype(throw_cells<3>) throw_cells<3>;
 template std::vector<std::uint32_t> cells_of_grains<2>(const Specimen<2>&, const std::vector<Cell<2>>&);
 template std::vector<std::uint32_t> cells_of_grains<3>(const Specimen<3>&, const std::vector<Cell<3>>&);
 } // namespace feldspar

@@ -1,6 +1,7 @@
 #include "dem/minerals/mineral_map.h"
 
 #include "base/colour.h"
+#include "base/mapped.h"
 #include "base/parameter_id.h"
 #include "base/quoted.h"
 
@@ -163,9 +164,8 @@ std::vector<std::uint8_t> minerals_of_map(const MineralParameters& wanted, const
       result.push_back(found->second);
     else
       {
-        std::vector<std::string> colours;
-        for (const Mineral& mineral : wanted.minerals)
-          colours.push_back(colour_text(mineral.colour) + " " + mineral.name);
+        const auto colours = mapped<std::string>(
+          wanted.minerals, [](const Mineral& mineral) { return colour_text(mineral.colour) + " " + mineral.name; });
         refuse(fmt::format("{}: the pixel in row {}, column {} has the colour {}, which no mineral has; the table "
                            "has {}",
                            wanted.map_file, k / map.width + 1, k % map.width + 1, colour_text(map.colour[k]),

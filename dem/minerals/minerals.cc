@@ -1,5 +1,6 @@
 #include "dem/minerals/minerals.h"
 
+#include "base/mapped.h"
 #include "base/parameter_id.h"
 #include "base/random.h"
 #include "dem/minerals/cells.h"
@@ -26,10 +27,8 @@ void meet_shares(const Specimen<dim>& specimen, const std::vector<Mineral>& mine
   const auto volume_of = [&](const std::size_t grain) {
     return grain_volume<dim>(specimen.grains.radius[grain], specimen.thickness);
   };
-  std::vector<double> excess;
-  excess.reserve(minerals.size());
-  for (const Mineral& mineral : minerals)
-    excess.push_back(-*mineral.share * specimen.grains.volume(specimen.thickness));
+  auto excess = mapped<double>(
+    minerals, [&](const Mineral& mineral) { return -*mineral.share * specimen.grains.volume(specimen.thickness); });
   for (std::size_t i = 0; i < cell_of.size(); ++i)
     excess[cells[cell_of[i]].kind] += volume_of(i);
   std::vector<std::size_t> order(joints.size());
@@ -64,10 +63,9 @@ void meet_shares(const Specimen<dim>& specimen, const std::vector<Mineral>& mine
 template <int dim>
 void fill_by_shares(Specimen<dim>& specimen, const std::vector<Mineral>& minerals)
 {
-  std::vector<CellKind> kinds;
-  kinds.reserve(minerals.size());
-  for (const Mineral& mineral : minerals)
-    kinds.push_back({"mineral grain", mineral.size, mineral.name, *mineral.share, mineral.aspect_ratio, mineral.angle});
+  const auto kinds = mapped<CellKind>(minerals, [](const Mineral& one) {
+    return CellKind{"mineral grain", one.size, one.name, *one.share, one.aspect_ratio, one.angle};
+  });
   const auto cells =
     throw_cells(specimen, kinds, RandomStream::mineral_grains, parameter_id<&MineralParameters::table>());
   specimen.groups = cells_of_grains(specimen, cells);

@@ -47,8 +47,6 @@ Specimen<dim> make_rock(const RockParameters& rock, const std::uint64_t seed, co
   return specimen;
 }
 
-template Specimen<2> make_rock<2>(const RockParameters&, std::uint64_t, const std::function<void()>&,
-                                  const std::function<void()>&);
-template Specimen<3> make_rock<3>(const RockParameters&, std::uint64_t, const std::function<void()>&,
-                                  const std::function<void()>&);
+template decltype(make_rock<2>) make_rock<2>;
+template decltype(make_rock<3>) make_rock<3>;
 } // namespace feldspar

@@ -1,7 +1,5 @@
 #include "dem/sharing/body_share.h"
 
-#include "dem/storage/responds_as_one.h"
-
 #include <algorithm>
 #include <iterator>
 #include <numeric>

@@ -42,6 +42,13 @@ public:
     return n_members;
   }
 
+  /// The root of the largest set, of equal ones the first.
+  std::uint32_t largest()
+  {
+    const auto n_members = sizes();
+    return std::uint32_t(std::ranges::max_element(n_members) - n_members.begin());
+  }
+
 private:
   std::vector<std::uint32_t> parent;
 };

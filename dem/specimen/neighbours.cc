@@ -1,7 +1,5 @@
 #include "dem/specimen/neighbours.h"
 
-#include "dem/specimen/pair_search.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,6 +97,7 @@ struct CellGrid
       }
   }
 };
+
 template <int dim, typename Visitor>
 void visit_pairs(const Grains<dim>& grains, const double largest_gap, Visitor&& visit,
                  const std::function<void()>& check)

@@ -17,6 +17,12 @@ template <int dim>
 std::vector<GrainPair> pairs_within(
   const Grains<dim>& grains, double largest_gap, const std::function<void()>& check = [] {});
 
+/// Calls `visit` with each pair of pairs_within(), in the same order, without a list of all: a visitor may end the search by
+/// a throw where there would be too many.
+template <int dim>
+void for_each_pair_within(const Grains<dim>& grains, double largest_gap,
+                          const std::function<void(const GrainPair&)>& visit, const std::function<void()>& check);
+
 /// Numbers of the grains along a Z-curve: neighbours in space come near each other in memory.
 template <int dim>
 std::vector<std::uint32_t> spatial_order(const Grains<dim>& grains);

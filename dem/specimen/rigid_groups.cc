@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace feldspar
@@ -46,8 +47,7 @@ RigidGroups<dim>::RigidGroups(const Specimen<dim>& specimen)
   first.assign(n_groups + 1, 0);
   for (const auto group : of)
     ++first[group + 1];
-  for (std::size_t g = 0; g < n_groups; ++g)
-    first[g + 1] += first[g];
+  std::partial_sum(first.begin(), first.end(), first.begin());
   members.resize(of.size());
   auto next = first;
   for (std::uint32_t i = 0; i < of.size(); ++i)

@@ -62,15 +62,11 @@ public:
   {
     if (empty())
       return;
-    const auto all_of = [&](const std::string& name, auto& components) {
-      for (std::size_t c = 0; c < components.size(); ++c)
-        archive.array("group_" + name + "_" + "xyz"[c], components[c]);
-    };
-    all_of("position", bodies.position);
-    all_of("velocity", bodies.velocity);
-    all_of("spin", bodies.spin);
-    all_of("force", bodies.force);
-    all_of("couple", bodies.couple);
+    transfer_components(archive, "group_position", bodies.position);
+    transfer_components(archive, "group_velocity", bodies.velocity);
+    transfer_components(archive, "group_spin", bodies.spin);
+    transfer_components(archive, "group_force", bodies.force);
+    transfer_components(archive, "group_couple", bodies.couple);
     archive.array("group_angle", angle);
   }
 

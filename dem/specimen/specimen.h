@@ -2,7 +2,6 @@
 
 #include "base/body.h"
 #include "dem/laws/parameters.h"
-#include "dem/specimen/flaw.h"
 #include "dem/specimen/neighbours.h"
 #include "dem/specimen/parameters.h"
 #include "dem/specimen/periodic_images.h"
@@ -14,10 +13,23 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
+#include <string>
 #include <vector>
 
 namespace feldspar
 {
+/// A hole, slot or closed flaw as it lies in a specimen, for pictures, files and whoever loads it.
+template <int dim>
+struct Flaw
+{
+  std::string name;                 ///< as the input calls its kind: hole, slot, closed flaw, joint set
+  bool open = false;                ///< grains were taken out; of a closed flaw the faces are still in contact
+  std::vector<Vector<dim>> outline; ///< points of a line, of a hole closed; in space of its cut through the middle [m]
+  std::uint64_t n_grains = 0;       ///< taken out
+  std::uint64_t n_joints = 0;       ///< cut, or of a closed flaw unbonded
+};
+
 /// Grains and the joints between them, stress free and at rest, in the box [0, size].
 template <int dim>
 struct Specimen
@@ -59,9 +71,29 @@ struct Specimen
   }
 
   /// The grain, or image of a grain, that a joint leads to.
-  PeriodicImage<dim> second_of(std::size_t joint) const;
+  PeriodicImage<dim> second_of(const std::size_t joint) const
+  {
+    // At rest the joint itself tells: its branch vector differs from that between its grains by whole edges.
+    const Vector<dim> branch = (joints.rest_distance[joint] + joints.opening[joint]) * at<dim>(joints.normal, joint);
+    const Vector<dim> between =
+      at<dim>(grains.position, joints.grain_2[joint]) - at<dim>(grains.position, joints.grain_1[joint]);
+    PeriodicImage<dim> image{joints.grain_2[joint], {}};
+    if (is_periodic())
+      for (int c = 0; c < dim; ++c)
+        image.boxes[c] = int(std::lround((branch[c] - between[c]) / size[c]));
+    return image;
+  }
 
   std::size_t n_joints() const { return joints.size() + smooth_joints.size(); }
+
+  /// Makes the numbers of joints places in lists: those of the law first.
+  void number_joints()
+  {
+    std::iota(joints.number.begin(), joints.number.end(), 0u);
+    auto next = std::uint32_t(joints.size());
+    for (auto& joint : smooth_joints)
+      joint.number = next++;
+  }
 
   double volume() const
   {
@@ -89,19 +121,5 @@ std::vector<MineralShare> shares_of_minerals(const Specimen<dim>& specimen)
       of_its_kind.share += grain_volume<dim>(specimen.grains.radius[i], specimen.thickness) / whole;
     }
   return shares;
-}
-
-template <int dim>
-PeriodicImage<dim> Specimen<dim>::second_of(const std::size_t joint) const
-{
-  // At rest the joint itself tells: its branch vector differs from that between its grains by whole edges.
-  const Vector<dim> branch = (joints.rest_distance[joint] + joints.opening[joint]) * at<dim>(joints.normal, joint);
-  const Vector<dim> between =
-    at<dim>(grains.position, joints.grain_2[joint]) - at<dim>(grains.position, joints.grain_1[joint]);
-  PeriodicImage<dim> image{joints.grain_2[joint], {}};
-  if (is_periodic())
-    for (int c = 0; c < dim; ++c)
-      image.boxes[c] = int(std::lround((branch[c] - between[c]) / size[c]));
-  return image;
 }
 } // namespace feldspar

@@ -1,7 +1,6 @@
-#include "dem/specimen/specimen_checks.h"
-
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "dem/specimen/specimen_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,15 +52,12 @@ template <int dim>
 void check_joints(const Specimen<dim>& specimen)
 {
   const auto& joints = specimen.joints;
-  require(std::visit(
-            [](const auto& law) {
-              if constexpr (requires { law.is_possible(); })
-                return law.is_possible();
-              else
-                return true;
-            },
-            joints.law),
-          "a parameter of its joint law is not possible");
+  std::visit(
+    [](const auto& law) {
+      if constexpr (requires { law.is_possible(); })
+        require(law.is_possible(), "a parameter of its joint law is not possible");
+    },
+    joints.law);
   const std::size_t n = joints.size();
   require(specimen.n_joints() == specimen.report.n_joints && joints.grain_2.size() == n && joints.number.size() == n,
           "joints are missing");
@@ -104,9 +100,8 @@ void check_clumps(const Specimen<dim>& specimen)
       has_members[g] = true;
     }
   require(group.size() == specimen.grains.size() && specimen.report.n_clumps <= group.size() &&
-            std::size_t(std::count(has_members.begin(), has_members.end(), true)) == specimen.report.n_clumps &&
-            std::size_t(std::find(has_members.begin(), has_members.end(), false) - has_members.begin()) ==
-              specimen.report.n_clumps,
+            std::size_t(std::ranges::count(has_members, true)) == specimen.report.n_clumps &&
+            std::size_t(std::ranges::find(has_members, false) - has_members.begin()) == specimen.report.n_clumps,
           "clumps are missing");
   for (std::size_t j = 0; j < specimen.joints.size(); ++j)
     require(group[specimen.joints.grain_1[j]] != group[specimen.joints.grain_2[j]], "a joint lies inside a clump");
@@ -117,10 +112,10 @@ void check_minerals(const Specimen<dim>& specimen)
 {
   if (specimen.minerals.empty())
     return;
-  require(specimen.mineral.size() == specimen.grains.size() && specimen.groups.size() == specimen.grains.size() &&
-            std::all_of(specimen.mineral.begin(), specimen.mineral.end(),
-                        [&](const std::uint32_t mineral) { return mineral < specimen.minerals.size(); }),
-          "a grain has no mineral");
+  require(
+    specimen.mineral.size() == specimen.grains.size() && specimen.groups.size() == specimen.grains.size() &&
+      std::ranges::all_of(specimen.mineral, [&](const auto mineral) { return mineral < specimen.minerals.size(); }),
+    "a grain has no mineral");
   require(all_lie(specimen.joints.further_friction, -specimen.joints.friction, largest),
           "a joint has a negative friction");
   for (const MineralName& mineral : specimen.minerals)
@@ -133,8 +128,7 @@ void check_smooth_joints(const Specimen<dim>& specimen)
   const std::size_t n_grains = specimen.grains.size();
   const auto is_pair = [&](const GrainPair& pair) { return pair.first < pair.second && pair.second < n_grains; };
   require(specimen.groups.empty() || specimen.groups.size() == n_grains, "mineral grains are missing");
-  require(std::all_of(specimen.kept_apart.begin(), specimen.kept_apart.end(), is_pair) &&
-            std::is_sorted(specimen.kept_apart.begin(), specimen.kept_apart.end()),
+  require(std::ranges::all_of(specimen.kept_apart, is_pair) && std::ranges::is_sorted(specimen.kept_apart),
           "grains are kept apart that are not there");
   const double edge = specimen.size.maxCoeff();
   GrainPair last{0, 0};

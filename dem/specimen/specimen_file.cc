@@ -1,11 +1,11 @@
 #include "dem/specimen/specimen_file.h"
 
+#include "base/byte_archive.h"
 #include "base/input_error.h"
 #include "base/mapped.h"
 #include "base/parameter_id.h"
 #include "base/quoted.h"
 #include "base/system/hdf5_archive.h"
-#include "dem/specimen/specimen_checks.h"
 
 #include <fmt/format.h>
 
@@ -39,14 +39,21 @@ void transfer_numbers(Archive& archive, const std::string& name, Numbers& number
     std::ranges::copy(values, numbers.begin());
 }
 
+/// Returns whether a part that a file may lack is transferred: writing, if the specimen has it; reading, if the file does.
+template <auto file_has, typename Archive>
+bool goes(Archive& archive, const std::string& name, const bool specimen_has)
+{
+  if constexpr (Archive::reads)
+    return (archive.*file_has)(name);
+  else
+    return specimen_has;
+}
+
 /// Name and numbers of the joints' law; a file that tells none is of the time of the flat joint alone.
 template <int dim, typename Archive>
 void transfer_law(Archive& archive, Joints<dim>& joints)
 {
-  bool is_told = true;
-  if constexpr (Archive::reads)
-    is_told = archive.has_attribute("law");
-  if (!is_told)
+  if (!goes<&Hdf5Reader::has_attribute>(archive, "law", true))
     return;
   std::string name = std::visit([](const auto& law) { return std::string(law.name); }, joints.law);
   archive.text("law", name);
@@ -70,12 +77,7 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
 {
   constexpr std::uint32_t most_flaws = 100000;
   std::uint32_t n = std::uint32_t(flaws.size());
-  if constexpr (Archive::reads)
-    {
-      if (!root.has("flaws"))
-        return;
-    }
-  else if (n == 0)
+  if (!goes<&Hdf5Reader::has>(root, "flaws", n > 0))
     return;
   auto all = root.subgroup("flaws");
   all.value("n", n);
@@ -87,9 +89,7 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
       Flaw<dim>& flaw = flaws[k];
       auto one = all.subgroup(fmt::format("{}", k + 1));
       one.text("name", flaw.name);
-      std::uint32_t open = flaw.open;
-      one.value("open", open);
-      flaw.open = open != 0;
+      transfer_flag(one, "open", flaw.open);
       one.value("n_grains", flaw.n_grains);
       one.value("n_joints", flaw.n_joints);
       for (int c = 0; c < dim; ++c)
@@ -109,23 +109,18 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
 template <int dim, typename Archive>
 void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
 {
-  if constexpr (Archive::reads)
-    {
-      if (!root.has("smooth_joints"))
-        return;
-    }
-  else if (specimen.smooth_joints.empty() && specimen.kept_apart.empty())
+  if (!goes<&Hdf5Reader::has>(root, "smooth_joints", !specimen.smooth_joints.empty() || !specimen.kept_apart.empty()))
     return;
   constexpr std::size_t most_neighbours = 1000; // before a list is made for so many
   auto archive = root.subgroup("smooth_joints");
   auto& joints = specimen.smooth_joints;
   // A column of all of them, one number each.
-  const auto pass = [&](const std::string& name, const auto& part) {
-    using Number = std::remove_cvref_t<decltype(std::invoke(part, std::declval<SmoothJoint<dim>&>()))>;
+  const auto pass_by = [&](const std::string& name, const auto& part) {
+    using Number = std::remove_cvref_t<decltype(part(std::declval<SmoothJoint<dim>&>()))>;
     std::vector<std::conditional_t<std::is_floating_point_v<Number>, double, std::uint32_t>> column;
     column.reserve(joints.size());
     for (auto& joint : joints)
-      column.push_back(std::invoke(part, joint));
+      column.push_back(part(joint));
     archive.array(name, column);
     if constexpr (Archive::reads)
       {
@@ -134,19 +129,17 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
         if (joints.size() != column.size())
           throw InputError("smooth joints are incomplete");
         for (std::size_t k = 0; k < joints.size(); ++k)
-          std::invoke(part, joints[k]) = Number(column[k]);
+          part(joints[k]) = Number(column[k]);
       }
   };
+  // One that is joint.*first.*second of each.
+  const auto pass = [&](const std::string& name, const auto... members) {
+    pass_by(
+      name, [=](auto& joint) -> auto& { return (joint.*....*members); });
+  };
   using Joint = SmoothJoint<dim>;
-  const auto of_face = [](const auto part) {
-    return [=](auto& joint) -> auto& { return joint.face.*part; };
-  };
-  const auto of_bond = [](const auto part) {
-    return [=](auto& joint) -> auto& { return joint.face.bond.*part; };
-  };
-  const auto of_state = [](const auto part) {
-    return [=](auto& joint) -> auto& { return joint.state.*part; };
-  };
+  using smooth_joint::Face;
+  using State = smooth_joint::State<dim>;
   pass("grain_1", &Joint::grain_1);
   pass("grain_2", &Joint::grain_2);
   pass("number", &Joint::number);
@@ -154,20 +147,20 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
   pass("half_radius_difference_m", &Joint::half_radius_difference);
   for (int c = 0; c < dim; ++c)
     {
-      pass(
+      pass_by(
         fmt::format("normal_{}", "xyz"[c]), [c](auto& joint) -> auto& { return joint.normal[c]; });
-      pass(
+      pass_by(
         fmt::format("branch_{}_m", "xyz"[c]), [c](auto& joint) -> auto& { return joint.branch[c]; });
     }
-  pass("normal_stiffness_Pa_per_m", of_face(&smooth_joint::Face::normal_stiffness));
-  pass("shear_stiffness_Pa_per_m", of_face(&smooth_joint::Face::shear_stiffness));
-  pass("friction", of_face(&smooth_joint::Face::friction));
-  pass("dilation_slope", of_face(&smooth_joint::Face::dilation_slope));
-  pass("tensile_strength_Pa", of_bond(&Bond<double>::tensile_strength));
-  pass("cohesion_Pa", of_bond(&Bond<double>::cohesion));
-  pass("friction_slope", of_bond(&Bond<double>::friction_slope));
-  pass("gap_m", of_state(&smooth_joint::State<dim>::gap));
-  pass("bonded", of_state(&smooth_joint::State<dim>::bonded));
+  pass("normal_stiffness_Pa_per_m", &Joint::face, &Face::normal_stiffness);
+  pass("shear_stiffness_Pa_per_m", &Joint::face, &Face::shear_stiffness);
+  pass("friction", &Joint::face, &Face::friction);
+  pass("dilation_slope", &Joint::face, &Face::dilation_slope);
+  pass("tensile_strength_Pa", &Joint::face, &Face::bond, &Bond<double>::tensile_strength);
+  pass("cohesion_Pa", &Joint::face, &Face::bond, &Bond<double>::cohesion);
+  pass("friction_slope", &Joint::face, &Face::bond, &Bond<double>::friction_slope);
+  pass("gap_m", &Joint::state, &State::gap);
+  pass("bonded", &Joint::state, &State::bonded);
 
   std::vector<std::uint32_t> ends;
   for (const auto& [one, two] : specimen.kept_apart)
@@ -189,12 +182,7 @@ template <int dim, typename Archive>
 void transfer_minerals(Archive& grains, Specimen<dim>& specimen)
 {
   constexpr std::uint32_t most_minerals = 250; // as of a table
-  if constexpr (Archive::reads)
-    {
-      if (!grains.has("mineral"))
-        return;
-    }
-  else if (specimen.minerals.empty())
+  if (!goes<&Hdf5Reader::has>(grains, "mineral", !specimen.minerals.empty()))
     return;
   grains.array("mineral", specimen.mineral);
   std::uint32_t n = std::uint32_t(specimen.minerals.size());
@@ -239,20 +227,14 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   report.value("radius_multiplier", specimen.report.radius_multiplier);
   report.value("packing_stress_Pa", specimen.report.packing_stress);
   report.value("mean_radius_m", specimen.report.mean_radius);
-  bool has_smooth_joints = specimen.report.n_smooth_joints > 0;
-  if constexpr (Archive::reads)
-    has_smooth_joints = report.has_attribute("n_smooth_joints");
-  if (has_smooth_joints)
+  if (goes<&Hdf5Reader::has_attribute>(report, "n_smooth_joints", specimen.report.n_smooth_joints > 0))
     report.value("n_smooth_joints", specimen.report.n_smooth_joints);
-  bool has_clumps = specimen.groups_are_rigid;
+  const bool has_clumps = goes<&Hdf5Reader::has_attribute>(report, "n_clumps", specimen.groups_are_rigid);
   if constexpr (Archive::reads)
-    has_clumps = specimen.groups_are_rigid = report.has_attribute("n_clumps");
+    specimen.groups_are_rigid = has_clumps;
   if (has_clumps)
     report.value("n_clumps", specimen.report.n_clumps);
-  bool knows_coring = true; // a file may be older
-  if constexpr (Archive::reads)
-    knows_coring = report.has_attribute("n_cut_joints");
-  if (knows_coring)
+  if (goes<&Hdf5Reader::has_attribute>(report, "n_cut_joints", true)) // a file may be older
     {
       report.value("n_cut_joints", specimen.report.n_cut_joints);
       report.value("n_removed_grains", specimen.report.n_removed_grains);
@@ -271,10 +253,7 @@ void transfer(Archive& root, Specimen<dim>& specimen)
     grains.array(component("position", c), specimen.grains.position[c]);
   grains.array("mass_kg", specimen.grains.mass);
   const std::string group_name = has_clumps ? "clump" : "mineral_grain";
-  bool has_groups = !specimen.groups.empty();
-  if constexpr (Archive::reads)
-    has_groups = grains.has(group_name);
-  if (has_groups)
+  if (goes<&Hdf5Reader::has>(grains, group_name, !specimen.groups.empty()))
     grains.array(group_name, specimen.groups);
 
   transfer_minerals(grains, specimen);

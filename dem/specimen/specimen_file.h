@@ -22,6 +22,10 @@ template <int dim>
 Specimen<dim> read_specimen(
   const std::filesystem::path& file, const std::function<void()>& check = [] {});
 
+/// Checks a specimen beyond types, for a file whose bytes may come from anywhere. Throws InputError, which says what is wrong.
+template <int dim>
+void check_specimen(const Specimen<dim>& specimen);
+
 struct SpecimenHead
 {
   std::uint32_t dimension; ///< 2 or 3

@@ -1,7 +1,8 @@
 #include "dem/specimen/specimen_part.h"
 
+#include "base/mapped.h"
+
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -17,63 +18,61 @@ std::uint32_t number_without_gaps(std::vector<std::uint32_t>& groups)
     group = number.emplace(group, std::uint32_t(number.size())).first->second;
   return std::uint32_t(number.size());
 }
+
+/// Turned by a quarter, so that the axis `other` becomes `one`: (x, z) -> (z, W - x).
+template <int dim>
+Specimen<dim> with_axes_turned(Specimen<dim> specimen, const int one, const int other)
+{
+  const double width = specimen.size[one];
+  const auto turn = [=](auto& components) {
+    for (std::size_t i = 0; i < components[one].size(); ++i)
+      components[other][i] = -std::exchange(components[one][i], components[other][i]);
+  };
+  turn(specimen.grains.position);
+  for (double& x : specimen.grains.position[other])
+    x += width;
+  turn(specimen.joints.normal);
+  if constexpr (dim == 3)
+    turn(specimen.joints.tangent);
+  for (auto& joint : specimen.smooth_joints)
+    for (auto* vector : {&joint.normal, &joint.branch})
+      (*vector)[other] = -std::exchange((*vector)[one], (*vector)[other]);
+  for (auto& flaw : specimen.flaws)
+    for (auto& point : flaw.outline)
+      point[other] = width - std::exchange(point[one], point[other]);
+  std::swap(specimen.size[one], specimen.size[other]);
+  return specimen;
+}
 } // namespace
 
 template <int dim>
 Specimen<dim> part_of(Specimen<dim> specimen, const std::vector<bool>& kept)
 {
-  const Grains<dim> whole = std::move(specimen.grains);
-  constexpr auto outside = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> new_number(whole.size(), outside);
-  std::vector<double> radii, masses, inertias;
-  Components<dim> positions;
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    {
-      if (!kept[i])
-        continue;
-      new_number[i] = std::uint32_t(radii.size());
-      radii.push_back(whole.radius[i]);
-      masses.push_back(whole.mass[i]);
-      inertias.push_back(whole.moment_of_inertia[i]);
-      for (int c = 0; c < dim; ++c)
-        positions[c].push_back(whole.position[c][i]);
-    }
-  specimen.grains = {};
-  specimen.grains.place(radii, positions);
-  specimen.grains.mass = masses;
-  specimen.grains.moment_of_inertia = inertias;
+  std::vector<std::uint32_t> left, new_number(kept.size());
+  for (std::uint32_t i = 0; i < kept.size(); ++i)
+    if (kept[i])
+      {
+        new_number[i] = std::uint32_t(left.size());
+        left.push_back(i);
+      }
+  const auto renumber = [&](auto&... ends) { ((ends = new_number[ends]), ...); };
+  specimen.grains = specimen.grains.chosen(left);
 
   auto& joints = specimen.joints;
-  std::vector<std::size_t> kept_joints;
+  joints.keep_if([&](const std::size_t j) { return kept[joints.grain_1[j]] && kept[joints.grain_2[j]]; });
   for (std::size_t j = 0; j < joints.size(); ++j)
-    if (kept[joints.grain_1[j]] && kept[joints.grain_2[j]])
-      kept_joints.push_back(j);
-  joints.keep(kept_joints);
-  for (auto* ends : {&joints.grain_1, &joints.grain_2})
-    for (auto& grain : *ends)
-      grain = new_number[grain];
+    renumber(joints.grain_1[j], joints.grain_2[j]);
 
   const auto leaves = [&](const auto& pair) { return !kept[pair.first] || !kept[pair.second]; };
   std::erase_if(specimen.smooth_joints, [&](const SmoothJoint<dim>& joint) { return leaves(joint.ends()); });
   for (auto& joint : specimen.smooth_joints)
-    {
-      joint.grain_1 = new_number[joint.grain_1];
-      joint.grain_2 = new_number[joint.grain_2];
-    }
+    renumber(joint.grain_1, joint.grain_2);
   std::erase_if(specimen.kept_apart, leaves);
   for (auto& [one, two] : specimen.kept_apart)
-    {
-      one = new_number[one];
-      two = new_number[two];
-    }
+    renumber(one, two);
   for (auto* const of_grains : {&specimen.groups, &specimen.mineral})
-    {
-      std::vector<std::uint32_t> left;
-      for (std::size_t i = 0; i < of_grains->size(); ++i)
-        if (kept[i])
-          left.push_back((*of_grains)[i]);
-      *of_grains = left;
-    }
+    if (!of_grains->empty())
+      *of_grains = mapped<std::uint32_t>(left, [&](const std::uint32_t i) { return (*of_grains)[i]; });
   if (specimen.groups_are_rigid)
     specimen.report.n_clumps = number_without_gaps(specimen.groups);
 
@@ -107,53 +106,15 @@ template <int dim>
 Specimen<dim> laid_on_side(Specimen<dim> specimen)
 {
   if constexpr (dim == 3)
-    {
-      // (x, y, z) -> (x, z, W - y).
-      const double width = specimen.size[1];
-      const auto turn = [](auto& components) {
-        for (std::size_t i = 0; i < components[1].size(); ++i)
-          components[2][i] = -std::exchange(components[1][i], components[2][i]);
-      };
-      turn(specimen.grains.position);
-      for (double& z : specimen.grains.position[2])
-        z += width;
-      turn(specimen.joints.normal);
-      turn(specimen.joints.tangent);
-      for (auto& joint : specimen.smooth_joints)
-        for (auto* vector : {&joint.normal, &joint.branch})
-          (*vector)[2] = -std::exchange((*vector)[1], (*vector)[2]);
-      for (auto& flaw : specimen.flaws)
-        for (auto& point : flaw.outline)
-          point[2] = width - std::exchange(point[1], point[2]);
-      std::swap(specimen.size[1], specimen.size[2]);
-    }
-  return specimen;
+    return with_axes_turned(std::move(specimen), 1, 2);
+  else
+    return specimen;
 }
 
 template <int dim>
 Specimen<dim> quarter_turned(Specimen<dim> specimen)
 {
-  constexpr int last = dim - 1;
-  // (x, z) -> (z, W - x).
-  const double width = specimen.size[0];
-  const auto turn = [](auto& components) {
-    for (std::size_t i = 0; i < components[0].size(); ++i)
-      components[last][i] = -std::exchange(components[0][i], components[last][i]);
-  };
-  turn(specimen.grains.position);
-  for (double& x : specimen.grains.position[last])
-    x += width;
-  turn(specimen.joints.normal);
-  if constexpr (dim == 3)
-    turn(specimen.joints.tangent);
-  for (auto& joint : specimen.smooth_joints)
-    for (auto* vector : {&joint.normal, &joint.branch})
-      (*vector)[last] = -std::exchange((*vector)[0], (*vector)[last]);
-  for (auto& flaw : specimen.flaws)
-    for (auto& point : flaw.outline)
-      point[last] = width - std::exchange(point[0], point[last]);
-  std::swap(specimen.size[0], specimen.size[last]);
-  return specimen;
+  return with_axes_turned(std::move(specimen), 0, dim - 1);
 }
 
 template Specimen<2> shifted<2>(Specimen<2>, const Vector<2>&, const Vector<2>&);

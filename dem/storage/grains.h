@@ -3,10 +3,13 @@
 #include "base/page_allocator.h"
 #include "base/vector.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 namespace feldspar
@@ -20,6 +23,15 @@ void resize(Components<n_components>& components, const std::size_t n)
 {
   for (auto& component : components)
     component.assign(n, 0.0);
+}
+
+/// Transfers each component under the name of its axis.
+template <typename Archive, std::size_t n_components>
+void transfer_components(Archive& archive, const std::string& name,
+                         std::array<LargeVector<double>, n_components>& components)
+{
+  for (std::size_t c = 0; c < n_components; ++c)
+    archive.array(name + "_" + "xyz"[c], components[c]);
 }
 
 /// One component an array, of whatever kind.
@@ -105,6 +117,24 @@ struct Grains
   {
     resize<dim>(velocity, size());
     resize<n_rotations<dim>>(spin, size());
+  }
+
+  /// These grains at rest, with their masses.
+  Grains chosen(const std::vector<std::uint32_t>& which) const
+  {
+    const auto of = [&](const auto& values) {
+      std::remove_cvref_t<decltype(values)> result;
+      for (const std::uint32_t i : which)
+        result.push_back(values[i]);
+      return result;
+    };
+    Components<dim> positions;
+    std::ranges::transform(position, positions.begin(), of);
+    Grains all;
+    all.place(of(radius), positions);
+    all.mass = of(mass);
+    all.moment_of_inertia = of(moment_of_inertia);
+    return all;
   }
 
   /// grain_density in kg/m³, thickness of discs in m.

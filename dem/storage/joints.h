@@ -15,9 +15,19 @@
 
 namespace feldspar
 {
+/// The tables of joints, without the rows by name.
+struct BareJointTables
+{
+  PackedRows state;         ///< what a joint is and stores
+  PackedTable<1> response;  ///< its force and couples, those of a joint together: grains gather them
+  PackedRows segment_state; ///< what its segments store; all rows of a segment, then all of the next
+  PackedRows strength;      ///< of the segments' bonds
+  PackedRows more_state;    ///< what else the law has its segments store; in the order of segment_state
+};
+
 /// The numbers of joints and of their segments, in tables that a sweep walks through pack by pack.
 template <int dim>
-struct JointTables
+struct JointTables : BareJointTables
 {
   static constexpr int n_shear = dim - 1;
   static constexpr int n_tangents = dim == 3 ? 3 : 0;
@@ -25,37 +35,19 @@ struct JointTables
   JointTables() = default;
   // Copies of the tables; the rows below name their own.
   JointTables(const JointTables& other)
-    : state(other.state)
-    , response(other.response)
-    , segment_state(other.segment_state)
-    , strength(other.strength)
-    , more_state(other.more_state)
+    : BareJointTables(other)
   {
   }
   JointTables(JointTables&& other) noexcept
-    : state(std::move(other.state))
-    , response(std::move(other.response))
-    , segment_state(std::move(other.segment_state))
-    , strength(std::move(other.strength))
-    , more_state(std::move(other.more_state))
+    : BareJointTables(std::move(other))
   {
   }
   JointTables& operator=(JointTables other) noexcept
   {
-    std::swap(state, other.state);
-    std::swap(response, other.response);
-    std::swap(segment_state, other.segment_state);
-    std::swap(strength, other.strength);
-    std::swap(more_state, other.more_state);
+    BareJointTables::operator=(std::move(other));
     return *this;
   }
   ~JointTables() = default;
-
-  PackedRows state;         ///< what a joint is and stores
-  PackedTable<1> response;  ///< its force and couples, those of a joint together: grains gather them
-  PackedRows segment_state; ///< what its segments store; all rows of a segment, then all of the next
-  PackedRows strength;      ///< of the segments' bonds
-  PackedRows more_state;    ///< what else the law has its segments store; in the order of segment_state
 
   /// Numbers of the rows of `state`.
   struct Row
@@ -258,6 +250,16 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
       values.resize(kept.size());
       give_back_room(values);
     });
+  }
+
+  /// The same of every joint that does not fulfil a condition.
+  template <typename Condition>
+  void keep_if(const Condition& condition)
+  {
+    std::vector<std::size_t> kept(size());
+    std::iota(kept.begin(), kept.end(), std::size_t(0));
+    std::erase_if(kept, [&](const std::size_t j) { return !condition(j); });
+    keep(kept);
   }
 
   /// Makes joint k what joint order[k] was; a permutation of all.

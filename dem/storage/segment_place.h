@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -35,22 +36,30 @@ SegmentPlace<dim> segment_place(const Vector<dim>& centre_1, const double arm, c
           half_length * (dim == 2 ? element.area : std::sqrt(element.area))};
 }
 
+/// t, or t_1 and t_2, of a face.
+template <int dim>
+std::array<Vector<dim>, dim - 1> face_axes(const Joints<dim>& joints, const std::size_t joint)
+{
+  const Vector<dim> normal = at<dim>(joints.normal, joint);
+  if constexpr (dim == 2)
+    return {Vector<2>(-normal[1], normal[0])};
+  else
+    {
+      const Vector<3> tangent = at<3>(joints.tangent, joint);
+      return {tangent, normal.cross(tangent)};
+    }
+}
+
 /// The place of a segment of a joint as its grains stand now.
 template <int dim>
 SegmentPlace<dim> segment_place(const Grains<dim>& grains, const Joints<dim>& joints, const std::size_t joint,
                                 const std::size_t segment)
 {
   Tensor<dim> axes;
-  const Vector<dim> normal = at<dim>(joints.normal, joint);
-  axes.row(0) = normal;
-  if constexpr (dim == 2)
-    axes.row(1) = Vector<2>(-normal[1], normal[0]);
-  else
-    {
-      const Vector<3> tangent = at<3>(joints.tangent, joint);
-      axes.row(1) = tangent;
-      axes.row(2) = normal.cross(tangent);
-    }
+  axes.row(0) = at<dim>(joints.normal, joint);
+  const auto in_face = face_axes(joints, joint);
+  for (int c = 1; c < dim; ++c)
+    axes.row(c) = in_face[c - 1];
   const double distance = joints.rest_distance[joint] + joints.opening[joint];
   return segment_place<dim>(at<dim>(grains.position, joints.grain_1[joint]),
                             arms(distance, joints.half_radius_difference[joint]).one, axes, joints.half_length[joint],

@@ -1,4 +1,4 @@
-#include "fem/mesh/boundary_places.h"
+#include "fem/mesh/sample_mesh.h"
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/grid/grid_tools.h>
@@ -185,9 +185,7 @@ private:
     for (const std::string& known : names)
       if (is_of(side, known))
         name = known;
-    std::string where = fmt::format("{:g}", side.centre[0]);
-    for (unsigned int c = 1; c < dim; ++c)
-      where += fmt::format(", {:g}", side.centre[c]);
+    const std::string where = coordinates(side.centre);
     if (name != place && !place.empty())
       throw MeshError(
         fmt::format("the side of a cell at ({}) m lies where {} is and {}; {} must be all that lies there", where,

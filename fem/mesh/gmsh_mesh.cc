@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <numeric>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -44,13 +44,16 @@ void transfer(Archive& archive, GmshMesh& mesh)
 
 namespace
 {
-// Elements by Gmsh's numbers.
-constexpr int point = 15;
-constexpr int line = 1;
-constexpr int triangle = 2;
-constexpr int quadrilateral = 3;
-constexpr int tetrahedron = 4;
-constexpr int hexahedron = 5;
+/// A kind of element, by Gmsh's number.
+struct Kind
+{
+  int number;
+  int dimension;
+  bool is_simplex = false;
+};
+
+// Point, line, triangle, quadrilateral, tetrahedron, hexahedron.
+constexpr std::array<Kind, 6> kinds{{{15, 0}, {1, 1}, {2, 2, true}, {3, 2}, {4, 3, true}, {5, 3}}};
 
 /// Has the library read a file, whose name it does not see: an ending or a file of options beside it would count.
 void open_with_gmsh(const std::filesystem::path& file)
@@ -110,18 +113,14 @@ public:
     if (has_simplices)
       throw InputError("has cells that are not {}; in Gmsh recombine the mesh", wanted);
     for (auto* const elements : {&cells, &sides})
-      std::ranges::sort(*elements, [](const auto& a, const auto& b) { return a.number < b.number; });
+      std::ranges::sort(*elements, {}, &Element::number);
     check_sides();
-    for (const Element& cell : cells)
-      {
-        std::ranges::copy(cell.nodes, result.cells.emplace_back().nodes.begin());
-        result.cells.back().group = std::uint32_t(cell.group);
-      }
-    for (const Element& side : sides)
-      {
-        std::ranges::copy(side.nodes, result.sides.emplace_back().nodes.begin());
-        result.sides.back().group = std::uint32_t(side.group);
-      }
+    for (const auto& [all, checked] : {std::pair(&cells, &result.cells), std::pair(&sides, &result.sides)})
+      for (const Element& element : *all)
+        {
+          checked->push_back({{}, std::uint32_t(element.group)});
+          std::ranges::copy(element.nodes, checked->back().nodes.begin());
+        }
     result.groups = groups_of(dimension - 1);
     result.groups_of_cells = groups_of(dimension);
     return std::move(result);
@@ -143,9 +142,8 @@ private:
     std::vector<std::size_t> in_file;
     gmsh::model::mesh::getNodes(in_file, coordinates, parameters);
     std::vector<std::size_t> order(in_file.size());
-    for (std::size_t k = 0; k < order.size(); ++k)
-      order[k] = k;
-    std::ranges::sort(order, [&](const std::size_t a, const std::size_t b) { return in_file[a] < in_file[b]; });
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::ranges::sort(order, {}, [&](const std::size_t k) { return in_file[k]; });
     for (const std::size_t k : order)
       {
         const std::array<double, 3> place{coordinates[3 * k], coordinates[3 * k + 1], coordinates[3 * k + 2]};
@@ -167,19 +165,15 @@ private:
     for (std::size_t t = 0; t < types.size(); ++t)
       {
         const int type = types[t];
-        const int least_dimension = type == point                               ? 0
-                                    : type == line                              ? 1
-                                    : type == triangle || type == quadrilateral ? 2
-                                    : type == tetrahedron || type == hexahedron ? 3
-                                                                                : std::numeric_limits<int>::max();
-        if (least_dimension > dimension)
+        const auto kind = std::ranges::find(kinds, type, &Kind::number);
+        if (kind == kinds.end() || kind->dimension > dimension)
           throw InputError("elements of Gmsh's type {}; {} can be read", type,
                            dimension == 2 ? "points, lines and quadrilaterals"
                                           : "points, lines, quadrilaterals and hexahedra");
-        if (least_dimension < dimension - 1)
+        if (kind->dimension < dimension - 1)
           continue;
-        const bool is_cell = least_dimension == dimension;
-        has_simplices |= is_cell && (type == triangle || type == tetrahedron);
+        const bool is_cell = kind->dimension == dimension;
+        has_simplices |= is_cell && kind->is_simplex;
         const int group = group_of(entity_dimension, entity);
         const std::size_t n_nodes = nodes[t].size() / elements[t].size();
         for (std::size_t k = 0; k < elements[t].size(); ++k)

@@ -13,22 +13,16 @@ namespace feldspar::fem
 /// numbers in the file. Nodes of a cell or side are places in `nodes`, in Gmsh's order.
 struct GmshMesh
 {
-  struct Cell
+  struct Element
   {
-    std::array<std::uint32_t, 8> nodes; ///< the first 4 of a quadrilateral
-    std::uint32_t group;                ///< physical group; 0 without one, or several_groups
+    std::array<std::uint32_t, 8> nodes; ///< the first 2 of a line, the first 4 of a quadrilateral
+    std::uint32_t group;                ///< physical group; 0 without one, or of a cell several_groups
   };
   static constexpr std::uint32_t several_groups = std::uint32_t(-2);
 
-  struct Side
-  {
-    std::array<std::uint32_t, 4> nodes; ///< the first 2 of a line
-    std::uint32_t group;                ///< physical group; 0 without one
-  };
-
   std::vector<std::array<double, 3>> nodes;
-  std::vector<Cell> cells;
-  std::vector<Side> sides;
+  std::vector<Element> cells;
+  std::vector<Element> sides;
   std::map<std::string, std::uint32_t> groups; ///< of sides; one without a name has its number as name
   std::map<std::string, std::uint32_t> groups_of_cells;
 };

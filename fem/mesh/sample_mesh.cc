@@ -8,7 +8,6 @@
 #include <deal.II/grid/manifold_lib.h>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
@@ -33,19 +32,17 @@ void expect_positive(const double width, const double height, const std::array<u
 }
 
 SampleMesh<2> rectangle(const MPI_Comm communicator, const double width, const double height,
-                        const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+                        const std::array<unsigned int, 2> divisions, const unsigned int n_refinements,
+                        const std::map<std::string, types::boundary_id>& boundaries)
 {
   expect_positive(width, height, divisions);
-  SampleMesh<2> mesh{empty_triangulation<2>(communicator), {}};
+  SampleMesh<2> mesh{empty_triangulation<2>(communicator), boundaries};
   GridGenerator::subdivided_hyper_rectangle(*mesh.triangulation, {divisions[0], divisions[1]}, Point<2>(),
                                             Point<2>(width, height), true);
   mesh.triangulation->refine_global(n_refinements);
   return mesh;
 }
-} // namespace
 
-namespace
-{
 template <typename Id>
 Id found_in(const std::map<std::string, Id>& all, const char* const kind, const std::string& name)
 {
@@ -70,26 +67,23 @@ types::material_id SampleMesh<dim>::group(const std::string& name) const
 {
   for (const auto& cell : triangulation->active_cell_iterators())
     if (cell->material_id() == GmshMesh::several_groups)
-      throw MeshError(fmt::format(
-        "the cell at ({:g}, {:g}{}) m is in several physical groups, and a rock is that of one", cell->center()[0],
-        cell->center()[1], dim == 2 ? "" : fmt::format(", {:g}", cell->center()[dim - 1])));
+      throw MeshError(fmt::format("the cell at ({}) m is in several physical groups, and a rock is that of one",
+                                  coordinates(cell->center())));
   return found_in(groups, "group of cells", name);
 }
 
 SampleMesh<2> plane_sample(const MPI_Comm communicator, const double width, const double height,
                            const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
 {
-  SampleMesh<2> mesh = rectangle(communicator, width, height, divisions, n_refinements);
-  mesh.boundaries = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}}; // the order of GridGenerator
-  return mesh;
+  return rectangle(communicator, width, height, divisions, n_refinements,
+                   {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}}); // the order of GridGenerator
 }
 
 SampleMesh<2> axisymmetric_sample(const MPI_Comm communicator, const double radius, const double height,
                                   const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
 {
-  SampleMesh<2> mesh = rectangle(communicator, radius, height, divisions, n_refinements);
-  mesh.boundaries = {{"axis", 0}, {"side", 1}, {"bottom", 2}, {"top", 3}};
-  return mesh;
+  return rectangle(communicator, radius, height, divisions, n_refinements,
+                   {{"axis", 0}, {"side", 1}, {"bottom", 2}, {"top", 3}});
 }
 
 namespace
@@ -252,10 +246,8 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
       GeometryInfo<dim>::alternating_form_at_vertices(corners, jacobians);
       for (const unsigned int v : cell->vertex_indices())
         if (!(jacobians[v] > 0.0))
-          throw MeshError(fmt::format("the cell at ({:g}{}) m is inverted or flat at a corner", cell->center()[0],
-                                      dim == 2
-                                        ? fmt::format(", {:g}", cell->center()[1])
-                                        : fmt::format(", {:g}, {:g}", cell->center()[1], cell->center()[dim - 1])));
+          throw MeshError(
+            fmt::format("the cell at ({}) m is inverted or flat at a corner", coordinates(cell->center())));
     }
   if (unit != 1.0)
     GridTools::scale(unit, coarse);

@@ -2,6 +2,8 @@
 
 #include <deal.II/distributed/tria.h>
 
+#include <fmt/ranges.h>
+
 #include <array>
 #include <filesystem>
 #include <map>
@@ -55,6 +57,13 @@ struct SampleMesh
   dealii::types::material_id group(const std::string& name) const;
 };
 
+/// The coordinates of a place, for messages.
+template <int dim>
+std::string coordinates(const dealii::Point<dim>& place)
+{
+  return fmt::format("{:g}", fmt::join(place.begin_raw(), place.end_raw(), ", "));
+}
+
 /// A rectangle with its lower left corner at the origin. divisions: cells along x and y before refinement, each of
 /// which halves them.
 SampleMesh<2> plane_sample(MPI_Comm communicator, double width, double height, std::array<unsigned int, 2> divisions,
@@ -79,4 +88,15 @@ using BoundaryNames = std::map<std::string, std::vector<std::string>>;
 template <int dim>
 SampleMesh<dim> read_gmsh(MPI_Comm communicator, const std::filesystem::path& file, unsigned int n_refinements,
                           double unit = 1.0, const BoundaryNames& names = {});
+
+/// Checks that the boundaries of a laboratory test lie where their names say: bottom and top are the whole lower and upper
+/// end, flat and level; left and right, in r-z axis and side, in space side alone lie about the sample and face the right
+/// way. The last coordinate counts upwards. Other boundaries may lie where none of these has its place.
+///
+/// A place holds to within a thousandth of the width of the sample. Laboratories prepare the ends of a specimen so:
+/// at most 0.05 mm in 50 mm out of square with its axis (ISRM, ASTM D4543).
+///
+/// Throws MeshError, which says what lies where. in_r_z: the first coordinate of a mesh in the plane is a radius.
+template <int dim>
+void check_places(const SampleMesh<dim>& mesh, bool in_r_z);
 } // namespace feldspar::fem

@@ -21,14 +21,6 @@ std::vector<double> entries(const NodalVector& vector, const dealii::IndexSet& w
   return values;
 }
 
-PathVertex::PathVertex(const NodalVector& its_displacement, const NodalVector& its_internal_force,
-                       const NodalVector& its_external_force, const dealii::IndexSet& owned)
-  : displacement(entries(its_displacement, owned))
-  , internal_force(entries(its_internal_force, owned))
-  , external_force(entries(its_external_force, owned))
-{
-}
-
 BoundaryWork work_between(const PathVertex& from, const PathVertex& to, const std::vector<bool>& held)
 {
   BoundaryWork work;

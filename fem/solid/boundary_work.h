@@ -38,9 +38,6 @@ struct PathVertex
   std::vector<double> displacement;   ///< [m]
   std::vector<double> internal_force; ///< [N]
   std::vector<double> external_force; ///< [N]
-
-  PathVertex(const NodalVector& displacement, const NodalVector& internal_force, const NodalVector& external_force,
-             const dealii::IndexSet& owned);
 };
 
 /// Work by the forces on the degrees of freedom of this rank. `held` are those whose displacement is prescribed.

@@ -19,25 +19,20 @@ void CellBalance<dim>::place(const Discretisation<dim>& elements)
 {
   const auto& trees = elements.mesh.triangulation->get_coarse_cell_to_p4est_tree_permutation();
   std::vector<std::pair<types::global_dof_index, std::uint64_t>> places;
-  for (const auto& cell : elements.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      places.emplace_back(trees[cell->id().get_coarse_cell_id()], number_of(cell));
+  for (const auto& cell : elements.owned_cells())
+    places.emplace_back(trees[cell->id().get_coarse_cell_id()], number_of(cell));
   along_curve.resize(places.size());
   std::iota(along_curve.begin(), along_curve.end(), std::size_t(0));
   std::ranges::sort(along_curve,
                     [&](const std::size_t one, const std::size_t other) { return places[one] < places[other]; });
   // The ranks' pieces follow each other.
-  const unsigned int rank = Utilities::MPI::this_mpi_process(elements.communicator());
-  std::vector<std::size_t> n_of_ranks(Utilities::MPI::n_mpi_processes(elements.communicator()));
-  n_of_ranks[rank] = places.size();
-  Utilities::MPI::sum(n_of_ranks, elements.communicator(), n_of_ranks);
   cuts.assign(1, 0);
-  for (const std::size_t n : n_of_ranks)
+  for (const std::size_t n : Utilities::MPI::all_gather(elements.communicator(), places.size()))
     cuts.push_back(cuts.back() + n);
   if (cuts_at_first.empty())
     cuts_at_first = cuts;
   rank_at_first.resize(places.size());
-  const std::size_t begin = cuts[rank];
+  const std::size_t begin = cuts[Utilities::MPI::this_mpi_process(elements.communicator())];
   for (std::size_t k = 0; k < along_curve.size(); ++k)
     rank_at_first[along_curve[k]] =
       static_cast<unsigned int>(std::ranges::upper_bound(cuts_at_first, begin + k) - cuts_at_first.begin() - 1);

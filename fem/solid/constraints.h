@@ -34,9 +34,4 @@ struct SolidConstraints
 template <int dim>
 SolidConstraints constrain(const Discretisation<dim>& elements, const Load<dim>& load, const NodalVector& accepted,
                            double fraction);
-
-/// The volume that boundaries sweep together [m³]. Collective.
-template <int dim>
-double swept_between(const Discretisation<dim>& elements, const std::vector<std::string>& boundaries,
-                     const NodalVector& displacement);
 } // namespace feldspar::fem

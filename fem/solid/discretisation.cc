@@ -48,6 +48,12 @@ void Discretisation<dim>::distribute()
 }
 
 template <int dim>
+IndexSet Discretisation<dim>::dofs_on(const std::string& boundary, const unsigned int component) const
+{
+  return DoFTools::extract_boundary_dofs(dof_handler, only<dim>(component), {mesh.boundary(boundary)});
+}
+
+template <int dim>
 double Discretisation<dim>::integral(const std::string& boundary, const NodalVector& displacement,
                                      const Integrand& integrand) const
 {
@@ -57,24 +63,27 @@ double Discretisation<dim>::integral(const std::string& boundary, const NodalVec
   const FEValuesExtractors::Vector displacements(0);
   std::vector<Tensor<1, dim>> u(face_quadrature.size());
   double sum = 0.0;
-  for (const auto& cell : dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      for (const auto& face : cell->face_iterators())
-        if (face->at_boundary() && face->boundary_id() == wanted)
-          {
-            values.reinit(cell, face);
-            values[displacements].get_function_values(displacement, u);
-            for (const unsigned int q : values.quadrature_point_indices())
-              sum += integrand(u[q], values.normal_vector(q)) * values.JxW(q) *
-                     weight(kinematics, values.quadrature_point(q)[0]);
-          }
+  for (const auto& cell : owned_cells())
+    for (const auto& face : cell->face_iterators())
+      if (face->at_boundary() && face->boundary_id() == wanted)
+        {
+          values.reinit(cell, face);
+          values[displacements].get_function_values(displacement, u);
+          for (const unsigned int q : values.quadrature_point_indices())
+            sum += integrand(u[q], values.normal_vector(q)) * values.JxW(q) *
+                   weight(kinematics, values.quadrature_point(q)[0]);
+        }
   return Utilities::MPI::sum(sum, communicator());
 }
 
 template <int dim>
-double Discretisation<dim>::swept_volume(const std::string& boundary, const NodalVector& displacement) const
+double Discretisation<dim>::swept_volume(const std::vector<std::string>& boundaries,
+                                         const NodalVector& displacement) const
 {
-  return integral(boundary, displacement, [](const auto& u, const auto& normal) { return u * normal; });
+  double swept = 0.0;
+  for (const std::string& boundary : boundaries)
+    swept += integral(boundary, displacement, [](const auto& u, const auto& normal) { return u * normal; });
+  return swept;
 }
 
 template struct Discretisation<2>;

@@ -10,11 +10,13 @@
 #include <deal.II/fe/component_mask.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/filtered_iterator.h>
 #include <deal.II/lac/petsc_vector.h>
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace feldspar::fem
 {
@@ -52,8 +54,13 @@ struct Discretisation
   void distribute();
 
   MPI_Comm communicator() const { return dof_handler.get_communicator(); }
+  /// The cells of this rank.
+  auto owned_cells() const { return dof_handler.active_cell_iterators() | dealii::IteratorFilters::LocallyOwnedCell(); }
   std::uint64_t n_cells() const { return dof_handler.get_triangulation().n_global_active_cells(); }
   unsigned int n_points_per_cell() const { return quadrature.size(); }
+
+  /// The degrees of freedom of a component on a boundary, of the cells that this rank knows.
+  dealii::IndexSet dofs_on(const std::string& boundary, unsigned int component) const;
 
   NodalVector owned_vector() const { return NodalVector(owned, communicator()); }
   NodalVector ghosted_vector() const { return NodalVector(owned, relevant, communicator()); }
@@ -61,8 +68,8 @@ struct Discretisation
   using Integrand = std::function<double(const dealii::Tensor<1, dim>&, const dealii::Tensor<1, dim>&)>;
   /// Integral over a boundary, of a function of the displacement and the outer normal. Collective.
   double integral(const std::string& boundary, const NodalVector& displacement, const Integrand& integrand) const;
-  /// Volume between the boundary at rest and as it is displaced, outwards positive [m³]. Collective.
-  double swept_volume(const std::string& boundary, const NodalVector& displacement) const;
+  /// Volume between boundaries at rest and as they are displaced, outwards positive [m³]. Collective.
+  double swept_volume(const std::vector<std::string>& boundaries, const NodalVector& displacement) const;
 
   const SampleMesh<dim>& mesh;
   Kinematics kinematics;

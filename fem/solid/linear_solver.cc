@@ -15,16 +15,10 @@ void check(const PetscErrorCode error)
     throw std::runtime_error("PETSc failed with error " + std::to_string(error));
 }
 
-struct Solved
-{
-  bool converged;
-  unsigned int n_iterations;
-};
-
 /// Solves by PETSc itself: deal.II's wrappers stop by its default norm, that of the preconditioned residual, which is
 /// no force.
-Solved solve_once(const LinearSolver solver, const Mat matrix, const Vec solution, const Vec right_side,
-                  const int n_components, const double relative_tolerance)
+std::optional<unsigned int> solve_once(const LinearSolver solver, const Mat matrix, const Vec solution,
+                                       const Vec right_side, const int n_components, const double relative_tolerance)
 {
   KSP krylov;
   check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), &krylov));
@@ -60,7 +54,7 @@ Solved solve_once(const LinearSolver solver, const Mat matrix, const Vec solutio
   PetscInt n_iterations = 0;
   check(KSPGetIterationNumber(krylov, &n_iterations));
   check(KSPDestroy(&krylov));
-  return {reason > 0, unsigned(n_iterations)};
+  return reason > 0 ? std::optional(unsigned(n_iterations)) : std::nullopt;
 }
 } // namespace
 
@@ -80,16 +74,13 @@ std::optional<unsigned int> solve_linear(const LinearSolver solver, const bool s
   const Mat petsc_matrix = matrix;
   const auto solve = [&](const LinearSolver with) {
     solution = 0.0;
-    const Solved solved = solve_once(with, petsc_matrix, solution, right_side, n_components, relative_tolerance);
+    const auto n_iterations = solve_once(with, petsc_matrix, solution, right_side, n_components, relative_tolerance);
     // A singular matrix can pass for solved.
-    const bool finite = std::isfinite(solution.l2_norm());
-    return Solved{solved.converged && finite, solved.n_iterations};
+    return std::isfinite(solution.l2_norm()) ? n_iterations : std::nullopt;
   };
-  Solved solved = solve(first);
-  if (!solved.converged && solver == LinearSolver::automatic && first != LinearSolver::mumps)
-    solved = solve(LinearSolver::mumps);
-  if (!solved.converged)
-    return std::nullopt;
-  return solved.n_iterations;
+  auto n_iterations = solve(first);
+  if (!n_iterations && solver == LinearSolver::automatic && first != LinearSolver::mumps)
+    n_iterations = solve(LinearSolver::mumps);
+  return n_iterations;
 }
 } // namespace feldspar::fem

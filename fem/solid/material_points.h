@@ -4,10 +4,9 @@
 #include "base/parallel.h"
 #include "fem/materials/material.h"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_reduce.h>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -48,17 +47,12 @@ public:
   /// Returns the number of events of all points. gives_up: as of trial().
   std::size_t relax(const Strains& strains, const std::function<bool()>& gives_up = {})
   {
-    return oneapi::tbb::parallel_reduce(
-      range(), std::size_t(0),
-      [&](const Range& part, std::size_t n_events) {
-        for (std::size_t i = part.begin(); i != part.end(); ++i)
-          {
-            leave_if(gives_up);
-            timed(i, [&] { n_events += points[i]->relax(strains[i]); });
-          }
-        return n_events;
-      },
-      std::plus<>());
+    std::atomic<std::size_t> n_events = 0;
+    for_each([&](const std::size_t i) {
+      leave_if(gives_up);
+      n_events += points[i]->relax(strains[i]);
+    });
+    return n_events;
   }
 
   void accept(const Strains& strains)
@@ -84,26 +78,15 @@ public:
   }
 
 private:
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-
   /// Points differ in cost by orders of magnitude: ranges are split down to one point where threads are idle.
-  Range range() const { return {0, points.size()}; }
-
   template <typename Work>
   void for_each(const Work& work) const
   {
-    oneapi::tbb::parallel_for(range(), [&](const Range& part) {
-      for (std::size_t i = part.begin(); i != part.end(); ++i)
-        timed(i, [&] { work(i); });
+    oneapi::tbb::parallel_for(std::size_t(0), points.size(), [&](const std::size_t i) {
+      const double begin = processor_time();
+      work(i);
+      times[i] += processor_time() - begin;
     });
-  }
-
-  template <typename Work>
-  void timed(const std::size_t i, const Work& work) const
-  {
-    const double begin = processor_time();
-    work();
-    times[i] += processor_time() - begin;
   }
 
   /// The processor time of this thread [s].

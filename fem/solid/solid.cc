@@ -4,7 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
-#include <deal.II/dofs/dof_tools.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
@@ -22,7 +21,7 @@ Solid<dim, material_dim>::Solid(const SampleMesh<dim>& mesh, const SolidParamete
                                 const Material<material_dim>& its_material)
   : parameters(its_parameters)
   , material(its_material)
-  , elements(mesh, parameters)
+  , body(mesh, parameters)
 {
   set_up();
 }
@@ -31,23 +30,22 @@ Solid<dim, material_dim>::Solid(const SampleMesh<dim>& mesh, const SolidParamete
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::set_up()
 {
-  balance.place(elements);
+  balance.place(body.elements);
   matrix.clear();
   tried.reset();
   accepted.reset();
-  points = {}; // the old ones go before the new ones come: both need not fit into memory
-  points = make_points(elements, material);
-  accepted.emplace(state_at_rest(elements, points.materials));
+  body.make_points(material);
+  accepted.emplace(body.at_rest());
 }
 
 template <int dim, int material_dim>
 NewtonReport Solid<dim, material_dim>::solve(const Load<dim>& load, const double fraction)
 {
   reject();
-  SolidConstraints constraints = constrain(elements, load, accepted->displacement, fraction);
+  SolidConstraints constraints = constrain(body.elements, load, accepted->displacement, fraction);
   if (constraints.places != places_of_matrix || matrix.m() == 0)
     {
-      set_pattern(matrix, elements, constraints.standing);
+      body.set_pattern(matrix, constraints.standing);
       places_of_matrix = constraints.places;
     }
   SolidState<material_dim> start = *accepted;
@@ -56,11 +54,11 @@ NewtonReport Solid<dim, material_dim>::solve(const Load<dim>& load, const double
     pressure *= 1.0 - fraction;
   for (const auto& pressure : load.pressures)
     {
-      elements.mesh.boundary(pressure.boundary);
+      body.elements.mesh.boundary(pressure.boundary);
       start.pressures[pressure.boundary] += fraction * pressure.value;
     }
-  NewtonSearch<dim, material_dim> search(elements, points, parameters, matrix, [this] { note_round(); });
-  auto found = search.run(std::move(constraints), start);
+  auto found = find_equilibrium(
+    body, parameters, matrix, [this] { note_round(); }, std::move(constraints), start);
   tried.emplace(std::move(found.state));
   return std::move(found.report);
 }
@@ -68,7 +66,7 @@ NewtonReport Solid<dim, material_dim>::solve(const Load<dim>& load, const double
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::accept()
 {
-  points.materials.accept(tried->strains);
+  body.materials.accept(tried->strains);
   note_round();
   accepted = tried;
 }
@@ -76,13 +74,13 @@ void Solid<dim, material_dim>::accept()
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::reject()
 {
-  points.materials.reject();
+  body.materials.reject();
 }
 
 template <int dim, int material_dim>
 StoredSolid Solid<dim, material_dim>::stored() const
 {
-  return {stored_cells(elements, points.materials, *accepted), accepted->pressures, accepted->work};
+  return {body.stored_cells(*accepted), accepted->pressures, accepted->work};
 }
 
 template <int dim, int material_dim>
@@ -90,15 +88,15 @@ void Solid<dim, material_dim>::restore(const StoredSolid& stored)
 {
   accepted->pressures = stored.pressures;
   accepted->work = stored.work;
-  take(brought_home(elements, stored.cells));
+  take(body.brought_home(stored.cells));
 }
 
 /// Makes these the accepted state of the cells of this rank.
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::take(const std::vector<StoredCell>& cells)
 {
-  accepted = restored(elements, points, *accepted, cells);
-  const NodalForces forces = assemble_forces(elements, points.volumes, *accepted, AffineConstraints<double>());
+  accepted = body.restored(*accepted, cells);
+  const NodalForces forces = body.forces(*accepted);
   accepted->internal_force = forces.internal;
   accepted->external_force = forces.external;
 }
@@ -106,7 +104,7 @@ void Solid<dim, material_dim>::take(const std::vector<StoredCell>& cells)
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::note_round()
 {
-  const std::vector<double>& of_points = points.materials.seconds();
+  const std::vector<double>& of_points = body.materials.seconds();
   std::vector<double> of_cells;
   for (auto point = of_points.begin(); point != of_points.end(); point += n_points_per_cell())
     of_cells.push_back(std::accumulate(point, point + n_points_per_cell(), 0.0));
@@ -122,7 +120,7 @@ Balance Solid<dim, material_dim>::rebalance()
       const Timer timer;
       const StoredSolid here = stored();
       const std::vector<StoredCell> cells = moved(here.cells, verdict.weights);
-      elements.distribute();
+      body.elements.distribute();
       set_up();
       accepted->pressures = here.pressures;
       accepted->work = here.work;
@@ -141,7 +139,7 @@ std::vector<StoredCell> Solid<dim, material_dim>::moved(const std::vector<Stored
   for (std::size_t k = 0; k < cells.size(); ++k)
     index[cells[k].number] = k;
 
-  auto& triangulation = *elements.mesh.triangulation;
+  auto& triangulation = *body.elements.mesh.triangulation;
   const auto weigh = triangulation.signals.weight.connect(
     [&](const auto& cell, const auto /*status*/) { return weights[index.at(number_of(cell))]; });
   const auto handle = triangulation.register_data_attach(
@@ -160,9 +158,8 @@ template <int dim, int material_dim>
 double Solid<dim, material_dim>::reaction(const std::string& boundary, const unsigned int component) const
 {
   double force = 0.0;
-  for (const auto dof :
-       DoFTools::extract_boundary_dofs(dofs(), only<dim>(component), {elements.mesh.boundary(boundary)}))
-    if (elements.owned.is_element(dof))
+  for (const auto dof : body.elements.dofs_on(boundary, component))
+    if (body.elements.owned.is_element(dof))
       force += accepted->internal_force(dof) - accepted->external_force(dof);
   return Utilities::MPI::sum(force, communicator());
 }
@@ -179,26 +176,26 @@ void Solid<dim, material_dim>::bear_by_pressure(const std::string& boundary, con
 {
   // The boundary faces upwards: its pressure acts against the coordinate.
   accepted->pressures[boundary] -= reaction(boundary, component) / area(boundary);
-  accepted->external_force = assemble_forces(elements, points.volumes, *accepted, AffineConstraints<double>()).external;
+  accepted->external_force = body.forces(*accepted).external;
 }
 
 template <int dim, int material_dim>
 double Solid<dim, material_dim>::area(const std::string& boundary) const
 {
-  return elements.integral(boundary, displacement(), [](const auto&, const auto&) { return 1.0; });
+  return body.elements.integral(boundary, displacement(), [](const auto&, const auto&) { return 1.0; });
 }
 
 template <int dim, int material_dim>
 double Solid<dim, material_dim>::mean_displacement(const std::string& boundary, const unsigned int component) const
 {
-  return elements.integral(boundary, displacement(), [=](const auto& u, const auto&) { return u[component]; }) /
+  return body.elements.integral(boundary, displacement(), [=](const auto& u, const auto&) { return u[component]; }) /
          area(boundary);
 }
 
 template <int dim, int material_dim>
 double Solid<dim, material_dim>::swept_volume(const std::string& boundary) const
 {
-  return elements.swept_volume(boundary, displacement());
+  return body.elements.swept_volume({boundary}, displacement());
 }
 
 namespace

@@ -1,21 +1,27 @@
 #pragma once
 
+#include "fem/solid/body.h"
 #include "fem/solid/cell_balance.h"
 #include "fem/solid/load.h"
 #include "fem/solid/parameters.h"
-#include "fem/solid/state.h"
-#include "fem/solid/stored_solid.h"
-
-#include <deal.II/lac/petsc_sparse_matrix.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace feldspar::fem
 {
+/// The accepted state of a solid, for a file that returns to the same program and mesh.
+struct StoredSolid
+{
+  std::vector<StoredCell> cells;           ///< of this rank
+  std::map<std::string, double> pressures; ///< the same on every rank
+  BoundaryWork work{};                     ///< the same on every rank
+};
+
 /// A body in quasi-static equilibrium, at small strain; docs/theory.md §8.
 ///
 /// solve() looks for equilibrium under a load, from the accepted state; accept() makes it the accepted state. Every
@@ -74,25 +80,25 @@ public:
   StrainVector<material_dim> mean_strain() const;
 
   const NodalVector& displacement() const { return accepted->displacement; } ///< with ghosts
-  const dealii::DoFHandler<dim>& dofs() const { return elements.dof_handler; }
-  const dealii::Mapping<dim>& geometry() const { return elements.mapping; }
+  const dealii::DoFHandler<dim>& dofs() const { return body.elements.dof_handler; }
+  const dealii::Mapping<dim>& geometry() const { return body.elements.mapping; }
   Kinematics kinematics() const { return parameters.kinematics; }
   const std::vector<std::string>& field_names() const { return material.field_names; }
-  MPI_Comm communicator() const { return elements.communicator(); }
+  MPI_Comm communicator() const { return body.elements.communicator(); }
 
   /// Number of points on all ranks.
-  std::uint64_t n_points() const { return elements.n_cells() * n_points_per_cell(); }
+  std::uint64_t n_points() const { return body.elements.n_cells() * n_points_per_cell(); }
 
   // The points of this rank, in the order of its cells, n_points_per_cell() each.
-  unsigned int n_points_per_cell() const { return elements.n_points_per_cell(); }
-  const MaterialPoints<material_dim>& material_points() const { return points.materials; }
+  unsigned int n_points_per_cell() const { return body.elements.n_points_per_cell(); }
+  const MaterialPoints<material_dim>& material_points() const { return body.materials; }
   /// Number of a point among all points; the same for any number of ranks.
   std::uint64_t number_of_point(const std::size_t i) const
   {
     return places()[i].cell_number * n_points_per_cell() + places()[i].quadrature_point;
   }
-  const std::vector<PointPlace>& places() const { return points.places; }
-  const std::vector<double>& volumes() const { return points.volumes; } ///< [m³]
+  const std::vector<PointPlace>& places() const { return body.places; }
+  const std::vector<double>& volumes() const { return body.volumes; } ///< [m³]
   const std::vector<StrainVector<material_dim>>& strains() const { return accepted->strains; }
   const std::vector<MaterialResponse<material_dim>>& responses() const { return accepted->responses; }
   /// Fall of the stress by the events of the last step, each at a held strain [Pa].
@@ -106,8 +112,7 @@ private:
 
   SolidParameters parameters;
   Material<material_dim> material;
-  Discretisation<dim> elements;
-  SolidPoints<material_dim> points;
+  SolidBody<dim, material_dim> body;
   CellBalance<dim> balance;
 
   /// State made anew, never assigned, where cells move: PETSc assigns only where ranks have as many entries of both.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -16,6 +17,32 @@ using ChartPoint = std::array<double, 4>;
 
 /// Separator of points: a gap in a line, or the end of one area and the beginning of the next.
 inline constexpr ChartPoint gap{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+
+/// Limits of places along each of some axes; turned round while no place is within them.
+template <std::size_t n>
+struct Limits
+{
+  std::array<double, n> low;
+  std::array<double, n> high;
+
+  Limits()
+  {
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+  }
+
+  double size(const std::size_t axis) const { return high[axis] - low[axis]; }
+
+  /// Widens the limits until they have a circle or sphere in them.
+  void include(const std::array<double, n>& place, const double radius = 0.0)
+  {
+    for (std::size_t c = 0; c < n; ++c)
+      {
+        low[c] = std::min(low[c], place[c] - radius);
+        high[c] = std::max(high[c], place[c] + radius);
+      }
+  }
+};
 
 struct ChartSeries
 {

@@ -16,7 +16,6 @@ namespace
 using Kind = ChartSeries::Kind;
 using Bars = ChartSeries::Bars;
 using Colours = ChartSeries::Colours;
-using Look = Chart::Look;
 
 /// Settings of gnuplot for a look.
 struct Paper
@@ -28,29 +27,18 @@ struct Paper
   const char* y_label;
 };
 
-Paper paper_of(const Look look)
-{
-  switch (look)
-    {
-    case Look::plot:
-      return {"set grid lw 0.5 lc rgb '#e4e4e4'\nset xzeroaxis lt 1 lw 0.8 lc rgb '#b0b0b0'\n"
-              "set yzeroaxis lt 1 lw 0.8 lc rgb '#b0b0b0'\n",
-              "below center horizontal Left reverse samplen 2.2 spacing 1.1 height 0.8", "nomirror out", "offset 0,0.4",
-              ""};
-    case Look::sheet:
-      return {"set lmargin 10; set rmargin 14; set bmargin 6\n",
-              "outside bottom center horizontal Left reverse samplen 2 width 1", "nomirror in", "", ""};
-    case Look::map:
-      return {"", "below center horizontal Left reverse samplen 1.5 width 1", "nomirror out", "offset 0,0.4", ""};
-    case Look::large_map:
-      return {"set title font ',16'\nset bmargin 7.5\n",
-              "below center horizontal Left reverse samplen 1.5 width 1 font ',14'", "nomirror out font ',14'",
-              "font ',15'", "font ',15'"};
-    default:
-      return {"set autoscale xfix\nset lmargin 9; set rmargin 1; set tmargin 0.6; set bmargin 3\n", "off",
-              "nomirror out", "offset 0,0.6 font ',9'", "offset 1.2,0 font ',8'"};
-    }
-}
+/// In the order of Chart::Look.
+constexpr Paper papers[] = {
+  {"set grid lw 0.5 lc rgb '#e4e4e4'\nset xzeroaxis lt 1 lw 0.8 lc rgb '#b0b0b0'\n"
+   "set yzeroaxis lt 1 lw 0.8 lc rgb '#b0b0b0'\n",
+   "below center horizontal Left reverse samplen 2.2 spacing 1.1 height 0.8", "nomirror out", "offset 0,0.4", ""},
+  {"set lmargin 10; set rmargin 14; set bmargin 6\n", "outside bottom center horizontal Left reverse samplen 2 width 1",
+   "nomirror in", "", ""},
+  {"", "below center horizontal Left reverse samplen 1.5 width 1", "nomirror out", "offset 0,0.4", ""},
+  {"set title font ',16'\nset bmargin 7.5\n", "below center horizontal Left reverse samplen 1.5 width 1 font ',14'",
+   "nomirror out font ',14'", "font ',15'", "font ',15'"},
+  {"set autoscale xfix\nset lmargin 9; set rmargin 1; set tmargin 0.6; set bmargin 3\n", "off", "nomirror out",
+   "offset 0,0.6 font ',9'", "offset 1.2,0 font ',8'"}};
 
 /// Entries of a key, and the letters of the longest.
 std::pair<int, int> size_of_key(const Chart& chart)
@@ -105,7 +93,7 @@ std::string settings(const char* const name, const ChartAxis& axis, const char* 
 
 std::string settings(const Chart& chart, const int width)
 {
-  const Paper paper = paper_of(chart.look);
+  const Paper& paper = papers[std::size_t(chart.look)];
   const bool has_right = !chart.right.label.empty();
   std::string text = fmt::format("set title {} noenhanced\nset size {}\nset border {} lw 0.8\n",
                                  gnuplot_text(chart.title), chart.equal_scales ? "ratio -1" : "noratio",
@@ -184,14 +172,17 @@ std::string style(const ChartSeries& series)
     }
 }
 
-/// Data, settings and plot of a panel in the making.
-class Panel
+/// A script in the making.
+class Script
 {
 public:
-  Panel(const Chart& chart, const int width, int& number_of_block)
-    : commands("unset object; unset label; set margins -1, -1, -1, -1\n" + settings(chart, width))
-    , n_blocks(number_of_block)
+  std::string data; ///< of all panels: a block of data cannot stand between them
+  std::string commands;
+
+  void add_panel(const Chart& chart, const int width)
   {
+    commands += "unset object; unset label; set margins -1, -1, -1, -1\n" + settings(chart, width);
+    plots.clear();
     for (const ChartSeries& series : chart.series)
       if (series.points.empty())
         continue;
@@ -203,9 +194,6 @@ public:
         add_plot(series);
     commands += "plot " + (plots.empty() ? "NaN notitle" : plots) + "\n";
   }
-
-  std::string data;
-  std::string commands;
 
 private:
   void add_plot(const ChartSeries& series)
@@ -265,31 +253,23 @@ private:
     ++n_blocks;
   }
 
-  std::string plots;
-  int& n_blocks;
+  std::string plots; ///< of the last panel
+  int n_blocks = 0;
 };
 } // namespace
 
 std::string gnuplot_script(const std::vector<Chart>& panels, const int columns, const int width)
 {
-  std::string data;
-  std::string commands;
-  int n_blocks = 0;
+  Script script;
   for (const Chart& chart : panels)
-    {
-      if (chart.empty() && chart.title.empty())
-        {
-          commands += "set multiplot next\n";
-          continue;
-        }
-      const Panel panel(chart, width / columns, n_blocks);
-      data += panel.data; // a block of data cannot stand between panels
-      commands += panel.commands;
-    }
+    if (chart.empty() && chart.title.empty())
+      script.commands += "set multiplot next\n";
+    else
+      script.add_panel(chart, width / columns);
   if (panels.size() == 1)
-    return data + commands;
-  return data + fmt::format("set multiplot layout {},{} rowsfirst\n{}unset multiplot\n",
-                            (int(panels.size()) + columns - 1) / columns, columns, commands);
+    return script.data + script.commands;
+  return script.data + fmt::format("set multiplot layout {},{} rowsfirst\n{}unset multiplot\n",
+                                   (int(panels.size()) + columns - 1) / columns, columns, script.commands);
 }
 
 int further_height(const Chart& chart, const int width)

@@ -1,5 +1,6 @@
 #include "report/chart/page_writer.h"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 #include <fmt/format.h>
@@ -81,10 +82,7 @@ std::string chart_data(const Chart& chart)
 
 std::string text(const Json& data)
 {
-  std::string quoted = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = quoted.find('<', at)) != std::string::npos;)
-    quoted.replace(at, 1, "\\u003c");
-  return quoted;
+  return boost::replace_all_copy(data.dump(-1, ' ', false, Json::error_handler_t::replace), "<", "\\u003c");
 }
 
 std::string base64(const std::string& bytes)

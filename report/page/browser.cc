@@ -23,9 +23,10 @@ namespace
 constexpr std::array browsers{"chromium", "google-chrome"};
 
 /// Folder that goes with all that is in it.
-class ScratchFolder
+struct ScratchFolder
 {
-public:
+  std::filesystem::path path;
+
   /// Makes it where temporary files are kept, or else in a folder that is there.
   explicit ScratchFolder(const std::filesystem::path& other)
   {
@@ -34,20 +35,15 @@ public:
     std::string name = ((problem ? other : place) / "feldspar-browser-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
       throw OutputError(fmt::format("{}: no folder can be made there for the browser", name));
-    folder = name;
+    path = name;
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   ~ScratchFolder()
   {
     std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
+    std::filesystem::remove_all(path, ignored);
   }
-
-  const std::filesystem::path& path() const { return folder; }
-
-private:
-  std::filesystem::path folder;
 };
 
 /// Address of a file, in which every character but letters, digits and some signs is written as its number.
@@ -85,7 +81,7 @@ DrawnByBrowser drawn_by_browser(const std::filesystem::path& page, const std::st
                                 const std::function<bool()>& is_over)
 {
   const ScratchFolder scratch(std::filesystem::absolute(page).parent_path());
-  const std::filesystem::path text = scratch.path() / "page";
+  const std::filesystem::path text = scratch.path / "page";
   std::vector<std::string> command{browser(),
                                    "--headless=new",
                                    "--disable-gpu",
@@ -94,12 +90,12 @@ DrawnByBrowser drawn_by_browser(const std::filesystem::path& page, const std::st
                                    "--hide-scrollbars",
                                    fmt::format("--force-device-scale-factor={}", pixels_per_length),
                                    "--window-size=1280,1600",
-                                   "--user-data-dir=" + (scratch.path() / "profile").string(),
+                                   "--user-data-dir=" + (scratch.path / "profile").string(),
                                    "--dump-dom"};
   if (geteuid() == 0)
     command.emplace_back("--no-sandbox"); // without which Chromium does not start for root
   command.push_back(address_of(page) + fragment);
-  DrawnByBrowser drawn{run_program(command, scratch.path(), longest, is_over, text), {}};
+  DrawnByBrowser drawn{run_program(command, scratch.path, longest, is_over, text), {}};
   if (drawn.end != ProgramEnd::done)
     return drawn;
   constexpr std::string_view begin = "<pre class=\"drawn\">";

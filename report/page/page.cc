@@ -91,16 +91,13 @@ data describe(const Table& table)
 }
 
 /// Keeps the page within its size.
-class PictureShelf
+struct PictureShelf
 {
-public:
-  /// `room` limits the bytes of pictures whose data stand on the page, `room_for_pdf` those of their files in PDF.
-  PictureShelf(const std::filesystem::path& figures, const std::size_t room, const std::size_t room_for_pdf)
-    : folder(figures)
-    , most_picture_bytes(room)
-    , most_pdf_bytes(room_for_pdf)
-  {
-  }
+  const std::filesystem::path& folder; ///< of the figures
+  std::size_t most_picture_bytes;      ///< of pictures whose data stand on the page
+  std::size_t most_pdf_bytes;          ///< of their files in PDF
+  std::size_t n_bytes = 0;
+  std::size_t n_pdf_bytes = 0;
 
   data describe(const PagePicture& shown)
   {
@@ -152,7 +149,6 @@ public:
                   {"files", files}};
   }
 
-private:
   std::string file_of(const std::string& name) const { return folder.filename().string() + "/" + name; }
 
   /// A file of the folder, empty where it cannot be read.
@@ -170,30 +166,19 @@ private:
     n_pdf_bytes += target.size();
     return "data:application/pdf;base64," + target;
   }
-
-  std::filesystem::path folder;
-  std::size_t most_picture_bytes;
-  std::size_t most_pdf_bytes;
-  std::size_t n_bytes = 0;
-  std::size_t n_pdf_bytes = 0;
 };
 
 data describe(const Tile& tile)
 {
-  const bool good = tile.mark == TileMark::good, bad = tile.mark == TileMark::bad;
-  const bool not_decided = tile.mark == TileMark::not_decided;
-  object result{{"property", tile.property},
-                {"value", tile.value},
-                {"notes", unless_empty(tile.notes)},
-                {"n", fmt::format("{}", tile.n)},
-                {"class", unless_empty(good          ? "good"
-                                       : bad         ? "bad"
-                                       : not_decided ? "not-decided"
-                                                     : "")},
-                {"mark", unless_empty(good          ? "✓"
-                                      : bad         ? "✗"
-                                      : not_decided ? "?"
-                                                    : "")},
+  // Class and sign of each mark.
+  static constexpr std::pair<const char*, const char*> marks[] = {{"", ""},
+                                                                  {"good", "✓"},
+                                                                  {"bad", "✗"},
+                                                                  {"not-decided", "?"}};
+  const auto& [its_class, sign] = marks[std::size_t(tile.mark)];
+  object result{{"property", tile.property},         {"value", tile.value},
+                {"notes", unless_empty(tile.notes)}, {"n", fmt::format("{}", tile.n)},
+                {"class", unless_empty(its_class)},  {"mark", unless_empty(sign)},
                 {"has_bar", tile.low && tile.high}};
   if (!tile.low || !tile.high)
     return result;
@@ -243,7 +228,7 @@ data describe(const PageBlock& block, PictureShelf& shelf)
 std::string rendered(const Page& page, const std::filesystem::path& figures, const std::size_t room,
                      const std::size_t room_for_pdf)
 {
-  PictureShelf shelf(figures, room, room_for_pdf);
+  PictureShelf shelf{figures, room, room_for_pdf};
   const auto sections = mapped<data>(page.sections, [&](const PageSection& section) {
     return object{
       {"id", section.id},

@@ -55,8 +55,8 @@ struct PageBlock
   std::vector<Table> tables = {};
   std::vector<Table> tables_as_files = {}; ///< beside the page alone
   std::vector<PagePicture> pictures = {};
-  std::vector<PagePicture> lead =
-    {}; ///< the first left of headline and paragraphs, where the screen is wide enough; others below them
+  /// The first left of headline and paragraphs, where the screen is wide enough; others below them.
+  std::vector<PagePicture> lead = {};
 };
 
 struct PageSection
@@ -64,7 +64,7 @@ struct PageSection
   std::string id;
   std::string short_title; ///< for the list of sections
   std::string heading;
-  std::vector<PageBlock> blocks;
+  std::vector<PageBlock> blocks = {};
   std::string folded = {}; ///< heading of all its blocks where they are to be opened first
 };
 

@@ -1,6 +1,10 @@
 #include "report/page/table.h"
 
+#include "base/mapped.h"
 #include "base/text.h"
+
+#include <boost/algorithm/string/replace.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -13,25 +17,16 @@ bool would_be_a_formula(const std::string& cell)
   return cell.find_first_of("=+-@\t\r\n") == 0 && !number_in<double>(cell);
 }
 
+std::string csv_cell(const std::string& text)
+{
+  const std::string cell = (would_be_a_formula(text) ? "'" : "") + text;
+  return cell.find_first_of(",\"\n\r") == std::string::npos ? cell
+                                                            : '"' + boost::replace_all_copy(cell, "\"", "\"\"") + '"';
+}
+
 std::string as_csv(const std::vector<std::string>& cells)
 {
-  std::string line;
-  for (const auto& text : cells)
-    {
-      if (&text != cells.data())
-        line += ',';
-      const std::string cell = (would_be_a_formula(text) ? "'" : "") + text;
-      if (cell.find_first_of(",\"\n\r") == std::string::npos)
-        line += cell;
-      else
-        {
-          line += '"';
-          for (const char c : cell)
-            line += c == '"' ? std::string("\"\"") : std::string(1, c);
-          line += '"';
-        }
-    }
-  return line + "\n";
+  return fmt::format("{}\n", fmt::join(mapped<std::string>(cells, csv_cell), ","));
 }
 } // namespace
 

@@ -10,7 +10,7 @@ namespace feldspar
 struct DataFrame
 {
   std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<std::string>> rows = {};
 };
 
 /// A table as the page shows it; its CSV file has the same unless it has a form of its own.
@@ -19,7 +19,7 @@ struct Table
   std::string name; ///< of its file
   std::string caption;
   std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows; ///< the first cell of each is its heading
+  std::vector<std::vector<std::string>> rows = {}; ///< the first cell of each is its heading
   std::optional<DataFrame> file = std::nullopt;
 };
 

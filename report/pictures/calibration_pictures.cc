@@ -1,8 +1,10 @@
 #include "report/pictures/calibration_pictures.h"
 
+#include "base/mapped.h"
 #include "base/prefixes.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
+#include "results/test_quantity.h"
 
 #include <fmt/format.h>
 
@@ -30,7 +32,6 @@ struct SampledColumn
 /// `bond_cohesion_Pa` as `bond cohesion [MPa]`.
 SampledColumn column_of(const std::string& name, const std::vector<double>& si_values)
 {
-  SampledColumn column;
   std::string words = name;
   std::string si_unit = "1";
   for (const std::string_view unit : {"Pa", "rad"})
@@ -41,20 +42,15 @@ SampledColumn column_of(const std::string& name, const std::vector<double>& si_v
       }
   const ShownUnit unit = shown_unit(si_unit, si_values.front());
   std::ranges::replace(words, '_', ' ');
-  column.label = unit.name.empty() ? words : fmt::format("{} [{}]", words, unit.name);
-  for (const double value : si_values)
-    column.values.push_back(value / unit.size);
-  return column;
+  return {with_unit(words, unit.name),
+          mapped<double>(si_values, [&](const double value) { return value / unit.size; })};
 }
 
-/// Step between the marks of an axis, so that one to three stand on it: 1, 2 or 5 times a power of ten.
+/// Step between the marks of an axis, so that one to three stand on it.
 double step_of_marks(const std::vector<double>& values)
 {
   const auto [least, largest] = std::ranges::minmax_element(values);
-  const double wanted = (*largest - *least) / 1.3;
-  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-  const double first = wanted / power;
-  return power * (first >= 5.0 ? 5.0 : first >= 2.0 ? 2.0 : 1.0);
+  return round_number((*largest - *least) / 1.3);
 }
 
 /// Numbers of values in equal parts of the range, as columns of one area.
@@ -117,18 +113,16 @@ Pictures pair_picture(const CalibrationRecord& record)
           points.points.push_back({columns[c].values[i], columns[row].values[i]});
         chart.series = {std::move(points)};
       }
-  Picture picture;
-  picture.name = "calibration_pairs";
-  picture.caption =
-    "Micro-parameters that agree with the tests: each pair, and on the diagonal each by itself. A narrow "
-    "band across a pair tells of the two together what the tests do not tell of each.";
-  picture.alternative = fmt::format("Samples of {} micro-parameters of the posterior, pair by pair.", n);
-  picture.width = 190 * int(n) + 60;
-  picture.height = 165 * int(n) + 60;
-  picture.raster = true;
-  picture.vector = false;
-  picture.panels = std::move(panels);
-  picture.columns = int(n);
-  return {picture};
+  return {{.name = "calibration_pairs",
+           .caption =
+             "Micro-parameters that agree with the tests: each pair, and on the diagonal each by itself. A narrow "
+             "band across a pair tells of the two together what the tests do not tell of each.",
+           .alternative = fmt::format("Samples of {} micro-parameters of the posterior, pair by pair.", n),
+           .width = 190 * int(n) + 60,
+           .height = 165 * int(n) + 60,
+           .raster = true,
+           .vector = false,
+           .panels = std::move(panels),
+           .columns = int(n)}};
 }
 } // namespace feldspar

@@ -1,8 +1,7 @@
-#include "report/chart/gnuplot_writer.h"
+#include "base/append.h"
 #include "report/pictures/envelope_curves.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
-#include "results/fits/form_titles.h"
 #include "results/fits/residual_strength.h"
 #include "results/runs/test_groups.h"
 #include "results/statistics.h"
@@ -22,20 +21,21 @@ using namespace plot;
 using Kind = ChartSeries::Kind;
 using Bars = ChartSeries::Bars;
 
-/// Strengths with their scatter [MPa]. A tension test lies at (-sigma_t, 0) and scatters along sigma_3.
-std::vector<ChartPoint> strength_points(const Series& series, const bool tension)
+/// Strengths with their scatter [MPa], in compression and in tension. A tension test lies at (-sigma_t, 0) and scatters along
+/// sigma_3.
+std::array<std::vector<ChartPoint>, 2> strength_points(const Series& series)
 {
-  std::vector<ChartPoint> points;
+  std::array<std::vector<ChartPoint>, 2> points;
   for (const auto& group : groups_of(series))
     if (const auto strength = statistics(values(group, &TestResults::peak_stress)))
       {
         const double mean = strength->mean / mega;
         const double deviation = strength->standard_deviation.value_or(0.0) / mega;
         const EnvelopeRole role = group.envelope_role();
-        if (tension && (role == EnvelopeRole::tension || role == EnvelopeRole::indirect_tension))
-          points.push_back({-mean, 0.0, -mean - deviation, -mean + deviation});
-        else if (!tension && role == EnvelopeRole::compression)
-          points.push_back({group.confining_pressure / mega, mean, mean - deviation, mean + deviation});
+        if (role == EnvelopeRole::tension || role == EnvelopeRole::indirect_tension)
+          points[1].push_back({-mean, 0.0, -mean - deviation, -mean + deviation});
+        else if (role == EnvelopeRole::compression)
+          points[0].push_back({group.confining_pressure / mega, mean, mean - deviation, mean + deviation});
       }
   return points;
 }
@@ -49,8 +49,8 @@ struct EnvelopePlot
   void add_points(const Series& series, const std::size_t n)
   {
     std::string label = series.key();
-    const std::vector<ChartPoint> pressed = strength_points(series, false);
-    const std::vector<ChartPoint> pulled = strength_points(series, true);
+    auto points_of_both = strength_points(series);
+    auto& [pressed, pulled] = points_of_both;
     const auto scatters = [](const ChartPoint& point) { return point[2] < point[3]; };
     if (std::ranges::any_of(pressed, scatters) || std::ranges::any_of(pulled, scatters))
       label += ": mean ± s.d.";
@@ -128,7 +128,7 @@ struct EnvelopePlot
   {
     const auto strengths = source.strengths(); // by rising pressure
     const double end =
-      !strengths.empty() && strengths.back().sigma_3 > 0.0 ? strengths.back().sigma_3 : highest_3() * mega;
+      !strengths.empty() && strengths.back().sigma_3 > 0.0 ? strengths.back().sigma_3 : limits().high[0] * mega;
     ChartSeries looks{.label = source.label + ", printed", .colour = of_colour, .width = 1.4, .dashes = 3};
     if (const auto& printed = source.envelope)
       add_curve([&](const double x) { return printed->sigma_1(x); }, -printed->s * printed->sigma_ci / printed->m, end,
@@ -150,52 +150,36 @@ struct EnvelopePlot
   /// The curve through the points of the experiment.
   void add_fit_of(const ReferenceSource& experiment)
   {
-    for (const auto& pair : experiment.fitted.hoek_brown)
-      if (pair.form == HoekBrownForm::intact)
+    const HoekBrownFit* const with_tension = experiment.fitted.fit(HoekBrownForm::intact, true);
+    const HoekBrownFit* const best = with_tension ? with_tension : experiment.fitted.fit(HoekBrownForm::intact, false);
+    if (best && best->quality.degrees_of_freedom > 0)
+      add_fit(*best, {.label = experiment.label + ": " + label_of(*best), .colour = black, .width = 1.6, .dashes = 2});
+  }
+
+  /// The origin and the points, with the lower ends of bars along σ₃ and the upper ends of those along σ₁.
+  Limits<2> limits() const
+  {
+    Limits<2> limits;
+    limits.include({0.0, 0.0});
+    for (const ChartSeries& series : points)
+      for (const auto& [x, y, low, high] : series.points)
         {
-          const auto& best = pair.with_tension_point.fit ? pair.with_tension_point.fit : pair.without_tension_point.fit;
-          if (best && best->quality.degrees_of_freedom > 0)
-            add_fit(*best,
-                    {.label = experiment.label + ": " + label_of(*best), .colour = black, .width = 1.6, .dashes = 2});
+          limits.include({x, series.bars == Bars::along_y ? high : y});
+          if (series.bars == Bars::along_x)
+            limits.include({low, y});
         }
-  }
-
-  double lowest_3() const
-  {
-    double lowest = 0.0;
-    for (const ChartSeries& series : points)
-      for (const auto& [x, y, low, high] : series.points)
-        lowest = std::min(lowest, series.bars == Bars::along_x ? low : x);
-    return lowest;
-  }
-
-  double highest_3() const
-  {
-    double highest = 0.0;
-    for (const ChartSeries& series : points)
-      for (const ChartPoint& point : series.points)
-        highest = std::max(highest, point[0]);
-    return highest;
-  }
-
-  double highest_1() const
-  {
-    double highest = 0.0;
-    for (const ChartSeries& series : points)
-      for (const auto& [x, y, low, high] : series.points)
-        highest = std::max(highest, series.bars == Bars::along_y ? high : y);
-    return highest;
+    return limits;
   }
 
   /// The part up to these stresses, or all of it.
   Chart chart(const std::optional<EnvelopePoint>& upper = std::nullopt) const
   {
-    Chart chart{
-      .x = {.label = "confinement σ₃ [MPa], compression positive",
-            .from = 1.25 * lowest_3(),
-            .to = upper ? upper->sigma_3 / mega : std::max(1.05 * highest_3(), 1.0)},
-      .y = {.label = "strength σ₁ [MPa]", .from = 0.0, .to = upper ? upper->sigma_1 / mega : 1.08 * highest_1()},
-      .series = curves};
+    const auto [low, high] = limits();
+    Chart chart{.x = {.label = "confinement σ₃ [MPa], compression positive",
+                      .from = 1.25 * low[0],
+                      .to = upper ? upper->sigma_3 / mega : std::max(1.05 * high[0], 1.0)},
+                .y = {.label = "strength σ₁ [MPa]", .from = 0.0, .to = upper ? upper->sigma_1 / mega : 1.08 * high[1]},
+                .series = curves};
     chart.series.insert(chart.series.end(), points.begin(), points.end());
     return chart;
   }
@@ -223,20 +207,18 @@ struct DrawnFit
 std::vector<DrawnFit> drawn_fits(const StrengthEnvelopes& envelopes)
 {
   std::vector<DrawnFit> fits;
-  for (const auto& pair : envelopes.hoek_brown)
+  for (const auto& [form, with_tension, answer] : envelopes.hoek_brown)
     {
       // One curve in two parametrisations (docs/theory.md §6.1): drawn once.
-      if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
+      if (form == HoekBrownForm::regressed ||
+          (form == HoekBrownForm::general && envelopes.fit(HoekBrownForm::as_paper, true)))
         continue;
-      const bool is_intact = pair.form == HoekBrownForm::intact;
-      const std::string name = title(is_intact ? pair.form : HoekBrownForm::general);
-      for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
-        if (either->fit && either->fit->quality.degrees_of_freedom > 0)
-          {
-            const bool with_tension = either->fit->with_tension_point;
-            fits.push_back({&*either->fit, fmt::format("{}, {} σ_t", name, with_tension ? "with" : "without"),
-                            with_tension ? 2.4 : 1.1, is_intact ? 1 : 2, is_intact});
-          }
+      const bool is_intact = form == HoekBrownForm::intact;
+      if (answer.fit && answer.fit->quality.degrees_of_freedom > 0)
+        fits.push_back({&*answer.fit,
+                        fmt::format("{}, {} σ_t", title(is_intact ? form : HoekBrownForm::general),
+                                    *with_tension ? "with" : "without"),
+                        *with_tension ? 2.4 : 1.1, is_intact ? 1 : 2, is_intact});
     }
   return fits;
 }
@@ -259,18 +241,6 @@ void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes, const s
     }
   if (const auto& fit = envelopes.mohr_coulomb.fit; fit && fit->quality.degrees_of_freedom > 0)
     plotted.add_fit(*fit, {.label = "Mohr–Coulomb", .colour = of_colour, .width = 1.8, .dashes = 4});
-}
-
-Picture envelope_picture(const std::string& name, const std::string& caption, const std::string& alternative,
-                         Chart chart)
-{
-  constexpr int width = 660;
-  return {.name = name,
-          .caption = caption,
-          .alternative = alternative,
-          .width = width,
-          .height = 640 + further_height(chart, width),
-          .panels = {std::move(chart)}};
 }
 } // namespace
 
@@ -307,20 +277,20 @@ Pictures envelope_pictures(const SeriesAmong& of)
     }
   const bool is_one_of_many = of.all.size() > 1;
   const std::string ending = is_one_of_many ? "_" + file_name(of.series().label) : "";
-  Pictures pictures{envelope_picture(
-    "envelope" + ending,
+  Pictures pictures = picture_of(
+    plotted.chart(), 660, 640, "envelope" + ending,
     std::string(envelopes.data.of_flawed_body ? "Envelope of highest nominal stresses" : "Strength envelope") +
       (is_one_of_many ? " of " + of.series().label : ""),
     "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
-    "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
-    plotted.chart())};
+    "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.");
   // A picture near the uniaxial test, where the forms differ.
-  if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3() > 0.0)
-    pictures.push_back(
-      envelope_picture("envelope_near_uniaxial" + ending, "The same near the uniaxial and the tension test",
-                       "The strength envelope between tension and low confinement, enlarged.",
-                       plotted.chart(EnvelopePoint{0.2 * plotted.highest_3() * mega,
-                                                   2.2 * *envelopes.data.uniaxial_compressive_strength})));
+  if (const double highest_3 = plotted.limits().high[0];
+      envelopes.data.uniaxial_compressive_strength && highest_3 > 0.0)
+    append(pictures,
+           picture_of(
+             plotted.chart(EnvelopePoint{0.2 * highest_3 * mega, 2.2 * *envelopes.data.uniaxial_compressive_strength}),
+             660, 640, "envelope_near_uniaxial" + ending, "The same near the uniaxial and the tension test",
+             "The strength envelope between tension and low confinement, enlarged."));
   return pictures;
 }
 
@@ -334,7 +304,7 @@ Pictures combined_envelope_picture(const AllSeries& of)
     }
   if (of.reference)
     plotted.add_reference(*of.reference);
-  if (!(plotted.highest_1() > 0.0)) // tension alone
+  if (!(plotted.limits().high[1] > 0.0)) // tension alone
     return {};
   for (std::size_t n = 0; n < of.all.size(); ++n)
     if (const HoekBrownFit* const fit = of.envelopes[n].representative())
@@ -344,9 +314,9 @@ Pictures combined_envelope_picture(const AllSeries& of)
                              .dashes = dashes(n)});
   if (of.reference)
     plotted.add_fit_of(of.reference->experiment);
-  return {envelope_picture(
-    "envelopes", of.all.size() > 1 ? "Strength of all series" : "Strength against confinement, with one envelope",
-    "Strength against confinement of each series with its Hoek–Brown envelope.", plotted.chart())};
+  return picture_of(plotted.chart(), 660, 640, "envelopes",
+                    of.all.size() > 1 ? "Strength of all series" : "Strength against confinement, with one envelope",
+                    "Strength against confinement of each series with its Hoek–Brown envelope.");
 }
 
 Pictures residual_picture(const SeriesAmong& of)

@@ -63,8 +63,7 @@ FigureOfSeries fragment_size_picture; ///< share of the volume in fragments smal
 inline constexpr std::array strength_figures{envelope_pictures, mohr_picture};
 inline constexpr std::array confinement_figures{compression_curves};
 inline constexpr std::array residual_figures{residual_picture};
-inline constexpr std::array direction_figures{rose_picture};
-inline constexpr std::array fragment_size_figures{fragment_size_picture};
+inline constexpr std::array crack_figures_of_series{rose_picture, fragment_size_picture};
 
 // All series.
 struct AllSeries
@@ -90,9 +89,8 @@ Pictures catalogue_picture(const std::vector<Series>& all, const std::vector<Emi
 /// samples, points without lines. More than six lines are shown by the kind of test, and thinned out. Over two entries a map.
 Pictures study_pictures(const std::vector<Series>& all);
 
-using FigureOfCalibration = Pictures(const CalibrationRecord&);
-FigureOfCalibration pair_picture; ///< every pair of sampled parameters, with the histogram of each
-inline constexpr std::array calibration_figures{pair_picture};
+/// Every pair of sampled parameters, with the histogram of each.
+Pictures pair_picture(const CalibrationRecord& record);
 
 /// The stress–strain curve and the crack maps of every test.
 Pictures single_test_pictures(const Series& series);

@@ -117,6 +117,19 @@ std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::f
   return problems;
 }
 
+std::vector<Picture> picture_of(Chart chart, const int width, const int height, const std::string& name,
+                                const std::string& caption, const std::string& alternative)
+{
+  if (chart.empty())
+    return {};
+  return {{.name = name,
+           .caption = caption,
+           .alternative = alternative,
+           .width = width,
+           .height = height + further_height(chart, width),
+           .panels = {std::move(chart)}}};
+}
+
 std::string Picture::script() const { return gnuplot_script(panels, columns, width); }
 
 std::string Picture::live() const

@@ -37,6 +37,11 @@ struct Picture
   std::string live() const;
 };
 
+/// The picture of one chart, of this size [px] and higher where its key needs more rows, so that the key takes no room from
+/// the axes. None of an empty chart.
+std::vector<Picture> picture_of(Chart chart, int width, int height, const std::string& name, const std::string& caption,
+                                const std::string& alternative);
+
 /// Observer that waits for pictures.
 struct DrawingWatch
 {

@@ -3,6 +3,7 @@
 #include "base/quoted.h"
 
 #include <array>
+#include <cmath>
 
 namespace feldspar::plot
 {
@@ -26,6 +27,21 @@ int point_type(const Series& series)
 }
 
 int dashes(const std::size_t n) { return 1 + int(n / colours.size()); }
+
+double round_number(const double most)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  const double first = most / power;
+  return power * (first >= 5.0 ? 5.0 : first >= 2.0 ? 2.0 : 1.0);
+}
+
+std::string with_capital(const std::string_view words)
+{
+  std::string text(words);
+  if (!text.empty() && 'a' <= text.front() && text.front() <= 'z')
+    text.front() = char(text.front() - 'a' + 'A');
+  return text;
+}
 
 std::string file_name(const std::string& label)
 {

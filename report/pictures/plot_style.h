@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 /// The common style of all pictures: colours that the colour-blind tell apart (Okabe and Ito), and the looks of a plot.
 namespace feldspar::plot
@@ -44,6 +45,12 @@ int point_type(const Series& series);
 
 /// Dashes tell series apart where colours repeat.
 int dashes(std::size_t n);
+
+/// The largest number not above a positive one that is 1, 2 or 5 times a power of ten.
+double round_number(double most);
+
+/// Words with a capital letter of ASCII at their beginning.
+std::string with_capital(std::string_view words);
 
 /// A part of the names of files out of a label: letters, digits, `-` and `.` of it, at most 60, a
 /// letter or a digit first; empty if there is none.

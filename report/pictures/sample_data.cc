@@ -1,4 +1,4 @@
-#include "report/pictures/sample_data.h"
+#include "report/pictures/sample_view.h"
 
 #include "base/prefixes.h"
 #include "report/chart/page_writer.h"

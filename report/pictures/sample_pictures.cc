@@ -1,7 +1,6 @@
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
 #include "report/pictures/rves.h"
-#include "report/pictures/sample_data.h"
 #include "report/pictures/sample_view.h"
 
 #include <fmt/format.h>
@@ -51,7 +50,6 @@ PlanePoint stroke(const CrackDirections& cracks, const double size, const double
   return {-length * std::sin(angle), length * std::cos(angle)};
 }
 
-std::string percent_text(const double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 } // namespace
 
 Pictures sample_picture(const FinishedTest& test, const std::string& title)
@@ -66,21 +64,16 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
   // Between the cells themselves: where most of them broke alike, a scale from 0 would show one colour.
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
+  double most_dense = 0.0;
   for (const SamplePiece& piece : pieces)
     {
       least = std::min(least, share[piece.cell]);
       most = std::max(most, share[piece.cell]);
-    }
-
-  double most_dense = 0.0;
-  for (const SamplePiece& piece : pieces)
-    {
       const CrackDirections cracks = directions(fields, piece.cell);
       most_dense = std::max(most_dense, cracks.xx + cracks.yy);
     }
 
-  PlanePoint low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  PlanePoint high{-low[0], -low[1]};
+  Limits<2> limits;
   ChartSeries cells{.kind = ChartSeries::Kind::area, .colours = ChartSeries::Colours::by_value, .rim = "#ffffff"};
   ChartSeries strokes{.kind = ChartSeries::Kind::segments,
                       .label = "mean direction of the cracks",
@@ -90,11 +83,7 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
     {
       for (const auto* points : {&piece.rest, &piece.moved})
         for (const PlanePoint& point : *points)
-          for (std::size_t c = 0; c < 2; ++c)
-            {
-              low[c] = std::min(low[c], point[c]);
-              high[c] = std::max(high[c], point[c]);
-            }
+          limits.include(point);
       for (const PlanePoint& corner : piece.moved)
         cells.points.push_back({corner[0] / milli, corner[1] / milli, 0.0, share[piece.cell] / percent});
       cells.points.push_back(gap);
@@ -121,7 +110,7 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
   for (const PointRve& rve : test.appearance.rves)
     {
       const PlanePoint at = view.place(rve);
-      discs.points.push_back({at[0] / milli, at[1] / milli, 0.022 * (high[1] - low[1]) / milli});
+      discs.points.push_back({at[0] / milli, at[1] / milli, 0.022 * limits.size(1) / milli});
       letters.points.push_back(discs.points.back());
       letters.texts.push_back(letter_of_rve(letters.texts.size()));
     }
@@ -152,10 +141,10 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
         caption += ", projected";
     }
 
-  const double width = 1.12 * (high[0] - low[0]);
-  const double height = 1.06 * (high[1] - low[1]);
+  const double width = 1.12 * limits.size(0);
+  const double height = 1.06 * limits.size(1);
   constexpr int inner_height = 620;
-  const PlanePoint middle{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])};
+  const PlanePoint middle{0.5 * (limits.low[0] + limits.high[0]), 0.5 * (limits.low[1] + limits.high[1])};
   const bool stands_on_z = fields.dimension == 3 || fields.is_axisymmetric();
   Chart chart{.look = Chart::Look::map,
               .x = {.label = fields.is_axisymmetric() ? "r [mm]" : "x [mm]",
@@ -189,8 +178,9 @@ Pictures sample_picture(const FinishedTest& test, const std::string& title)
   return {
     {.name = test.name + "_sample",
      .caption = caption,
-     .alternative = fmt::format("The deformed sample of {} (seed {}): at most {} of a cell's segments are broken.",
-                                title, test.record.seed, percent_text(most)),
+     .alternative =
+       fmt::format("The deformed sample of {} (seed {}): at most {:.2g} % of a cell's segments are broken.", title,
+                   test.record.seed, 100.0 * most),
      .width = std::max(480, int(inner_height * width / height) + 240),
      .height = inner_height + 160,
      .raster = pieces.size() > 3000,

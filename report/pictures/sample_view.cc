@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -29,15 +28,11 @@ SampleView::SampleView(const SampleFields& its_fields, const double its_scale)
   : fields(its_fields)
   , scale(its_scale)
 {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  Limits<3> limits;
   for (const auto& node : fields.nodes)
-    {
-      low = std::min(low, node[1]);
-      high = std::max(high, node[1]);
-    }
+    limits.include(node);
   // A little off the axis, where faces of cells may lie.
-  cut = low + (0.5 + 1e-6) * (high - low);
+  cut = limits.low[1] + (0.5 + 1e-6) * limits.size(1);
 }
 
 std::vector<SamplePiece> SampleView::pieces() const
@@ -206,20 +201,13 @@ double area_of(const std::vector<PlanePoint>& corners)
 double visible_scale(const SampleFields& fields)
 {
   double largest = 0.0;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  Limits<3> limits;
   for (std::size_t i = 0; i < fields.nodes.size(); ++i)
     {
       const auto& u = fields.displacement[i];
       largest = std::max(largest, std::hypot(u[0], u[1], u[2]));
-      low = std::min(low, fields.nodes[i][fields.dimension - 1]);
-      high = std::max(high, fields.nodes[i][fields.dimension - 1]);
+      limits.include(fields.nodes[i]);
     }
-  if (!(largest > 0.0))
-    return 1.0;
-  const double wanted = 0.06 * (high - low) / largest;
-  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-  const double digits = wanted / power;
-  return std::max(1.0, power * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0));
+  return largest > 0.0 ? std::max(1.0, round_number(0.06 * limits.size(fields.dimension - 1) / largest)) : 1.0;
 }
 } // namespace feldspar

@@ -4,7 +4,10 @@
 #include "results/runs/run.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 /// The way from the mesh of a sample to the plane of a picture [m].
@@ -54,4 +57,9 @@ double area_of(const std::vector<PlanePoint>& corners);
 
 /// A round number by which displacements can be multiplied to be seen: at most 6 % of the height.
 double visible_scale(const SampleFields& fields);
+
+/// The cells of a sample in the plane of its picture, at rest and at each time displaced `scale` times, with every field of
+/// them and the places of the RVEs: JSON for the page (report/page/sample.js). Empty of more than 20 000 cells.
+std::string sample_data(const FinishedTest& test, const SampleView& view, const std::vector<SamplePiece>& pieces,
+                        double scale);
 } // namespace feldspar

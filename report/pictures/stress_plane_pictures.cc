@@ -1,4 +1,3 @@
-#include "report/chart/gnuplot_writer.h"
 #include "report/pictures/envelope_curves.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
@@ -14,8 +13,6 @@ namespace feldspar
 namespace
 {
 using namespace plot;
-
-constexpr int picture_width = 660; // [px]
 
 void add_circle(Chart& chart, const double sigma_3, const double sigma_1, ChartSeries looks)
 {
@@ -60,15 +57,12 @@ Pictures mohr_picture(const SeriesAmong& of)
   std::vector<EnvelopePoint> strengths = data.points;
   if (data.tensile_strength)
     strengths.push_back({-*data.tensile_strength, 0.0});
-  double highest = 0.0;
-  double lowest = 0.0;
+  Limits<2> limits;
+  limits.include({0.0, 0.0});
   for (const auto& [sigma_3, sigma_1] : strengths)
-    {
-      highest = std::max(highest, sigma_1 / mega);
-      lowest = std::min(lowest, sigma_3 / mega);
-    }
-  const double reach = 1.03 * highest;
-  Chart chart{.x = {.label = "normal stress σ_n [MPa], compression positive", .from = 1.1 * lowest, .to = reach},
+    limits.include({sigma_3 / mega, sigma_1 / mega});
+  const double reach = 1.03 * limits.high[1];
+  Chart chart{.x = {.label = "normal stress σ_n [MPa], compression positive", .from = 1.1 * limits.low[0], .to = reach},
               .y = {.label = "shear stress τ [MPa]", .from = 0.0, .to = 0.56 * reach},
               .equal_scales = true,
               .key_columns = 3};
@@ -109,7 +103,7 @@ Pictures mohr_picture(const SeriesAmong& of)
                       "; the envelopes touch them as the fits of σ₁ over σ₃ say",
            .alternative = "Mohr circles of the mean strengths, in tension and under each confinement, with the fitted "
                           "envelopes in the plane of normal and shear stress.",
-           .width = picture_width,
+           .width = 660,
            .height = 480,
            .panels = {std::move(chart)}}};
 }
@@ -159,12 +153,8 @@ Pictures p_q_picture(const AllSeries& of)
     }
   if (!any_compression)
     return {};
-  return {
-    {.name = "p_q",
-     .caption = "Strengths over the mean stress. Under confinement σ₂ = σ₃; in tension σ₁ = σ₂ = 0",
-     .alternative = "The difference of the largest and the smallest principal stress at failure against their mean.",
-     .width = picture_width,
-     .height = 480 + further_height(chart, picture_width),
-     .panels = {std::move(chart)}}};
+  return picture_of(std::move(chart), 660, 480, "p_q",
+                    "Strengths over the mean stress. Under confinement σ₂ = σ₃; in tension σ₁ = σ₂ = 0",
+                    "The difference of the largest and the smallest principal stress at failure against their mean.");
 }
 } // namespace feldspar

@@ -15,22 +15,22 @@ namespace feldspar
 namespace
 {
 /// Entries that take two numbers or more; an entry with other values, or with several units, is left out.
-std::vector<VariedEntry> varied_entries(const std::vector<Series>& all)
+std::vector<Abscissa> varied_entries(const std::vector<Series>& all)
 {
-  std::map<std::string, std::optional<VariedEntry>> found;
+  std::map<std::string, std::optional<Abscissa>> found;
   for (const Series& series : all)
     for (const FinishedTest& test : series.tests)
       for (const VariantSetting& setting : test.settings)
         {
           const auto number = number_of(setting);
           auto& entry =
-            found.try_emplace(setting.entry, VariedEntry{setting.entry, number ? number->unit : "", {}}).first->second;
+            found.try_emplace(setting.entry, Abscissa{setting.entry, number ? number->unit : "", {}}).first->second;
           if (!number || (entry && entry->unit != number->unit))
             entry.reset();
           else if (entry)
             entry->values.insert(number->value);
         }
-  std::vector<VariedEntry> result;
+  std::vector<Abscissa> result;
   for (auto& [name, entry] : found)
     if (entry && entry->values.size() > 1)
       result.push_back(std::move(*entry));
@@ -39,7 +39,7 @@ std::vector<VariedEntry> varied_entries(const std::vector<Series>& all)
 
 /// Returns whether another entry has one value for each number of this one and rises or falls with it: a picture over
 /// this entry is then over both. A name that comes with a number goes along, too.
-bool goes_along(const std::vector<Series>& all, const VariedEntry& entry, const std::string& other)
+bool goes_along(const std::vector<Series>& all, const Abscissa& entry, const std::string& other)
 {
   std::map<double, std::string> companion;
   for (const Series& series : all)
@@ -78,21 +78,19 @@ std::vector<StudiedResult> studied_results(const std::vector<Series>& all)
 
 std::vector<Abscissa> abscissas(const std::vector<Series>& all)
 {
-  const std::vector<VariedEntry> varied = varied_entries(all);
   std::set<std::string> entries;
   for (const Series& series : all)
     for (const FinishedTest& test : series.tests)
       for (const VariantSetting& setting : test.settings)
         entries.insert(setting.entry);
   std::vector<Abscissa> result;
-  for (const VariedEntry& entry : varied)
+  for (Abscissa& one : varied_entries(all))
     {
-      Abscissa one{entry, {}};
       for (const std::string& other : entries)
-        if (other != entry.entry && goes_along(all, entry, other))
+        if (other != one.entry && goes_along(all, one, other))
           one.along.insert(other);
       const bool is_known = std::ranges::any_of(result, [&](const Abscissa& before) {
-        return before.along.contains(entry.entry) && one.along.contains(before.varied.entry);
+        return before.along.contains(one.entry) && one.along.contains(before.entry);
       });
       if (!is_known)
         result.push_back(std::move(one));
@@ -114,7 +112,7 @@ std::vector<StudyLine> lines_of(const std::vector<Series>& all, const Abscissa& 
           std::optional<double> value;
           std::string others;
           for (const VariantSetting& setting : test->settings)
-            if (setting.entry == over.varied.entry)
+            if (setting.entry == over.entry)
               value = number_of(setting)->value;
             else if (with_others && !over.along.contains(setting.entry))
               others += fmt::format("{}{} = {}", others.empty() ? "" : ", ",
@@ -139,7 +137,7 @@ std::vector<StudyEffect> effects_of(const std::vector<Series>& all, const Abscis
       std::vector<StudyEffect> of_tests;
       std::map<std::string, std::map<double, std::vector<double>>> means; // of each line, by test and value
       for (const StudyLine& line : lines_of(all, over, result, true))
-        if (line.results.size() == over.varied.values.size())
+        if (line.results.size() == over.values.size())
           {
             if (!means.contains(line.title))
               of_tests.push_back({result, line.title, {}});
@@ -164,8 +162,7 @@ double StudyEffect::change() const
 
 double StudyEffect::reach() const
 {
-  const auto [least, most] =
-    std::ranges::minmax_element(means, [](const auto& one, const auto& other) { return one.second < other.second; });
+  const auto [least, most] = extremes();
   const double larger = std::max(std::abs(least->second), std::abs(most->second));
   return larger > 0.0 ? (most->second - least->second) / larger : 0.0;
 }

@@ -2,6 +2,7 @@
 
 #include "results/runs/series.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -21,19 +22,13 @@ struct StudiedResult
   Figure TestResults::*figure;
 };
 
-/// The numbers that an entry takes, in one unit.
-struct VariedEntry
+/// An entry to draw over: the numbers that it takes, in one unit, and the entries that go along with it.
+struct Abscissa
 {
   std::string entry;
   std::string unit;
   std::set<double> values;
-};
-
-/// An entry to draw over, with those that go along with it.
-struct Abscissa
-{
-  VariedEntry varied;
-  std::set<std::string> along;
+  std::set<std::string> along = {};
 };
 
 /// The results of one test of the programme and one combination of the entries that do not go along.
@@ -54,6 +49,10 @@ struct StudyEffect
   std::string test;               ///< its title
   std::map<double, double> means; ///< by the value of the entry
 
+  /// Returns whether it is an effect on the same result of the same test.
+  bool is_on_same(const StudyEffect& other) const { return result.name == other.result.name && test == other.test; }
+  /// The least and the largest mean.
+  auto extremes() const { return std::ranges::minmax_element(means, {}, &decltype(means)::value_type::second); }
   double change() const; ///< from the lowest to the highest value of the entry, over the former mean
   double reach() const;  ///< from the least to the largest mean, over the larger of their magnitudes
 };

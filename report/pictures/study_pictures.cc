@@ -1,5 +1,4 @@
 #include "base/append.h"
-#include "report/chart/gnuplot_writer.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
 #include "report/pictures/study_lines.h"
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -76,11 +74,10 @@ std::vector<Selection> selections(const std::vector<Series>& all, const Abscissa
   return result;
 }
 
-Picture picture_of(const Selection& shown, const Abscissa& over, const StudiedResult& property)
+Pictures lines_picture(const Selection& shown, const Abscissa& over, const StudiedResult& property)
 {
-  constexpr int width = 660; // [px]
-  const std::string& entry = over.varied.entry;
-  Chart chart{.x = {.label = with_unit(entry, over.varied.unit), .room = 0.04},
+  const std::string& entry = over.entry;
+  Chart chart{.x = {.label = with_unit(entry, over.unit), .room = 0.04},
               .y = {.label = with_unit(property.title, property.unit), .from = 0.0}};
   for (std::size_t n = 0; n < shown.lines.size(); ++n)
     {
@@ -100,15 +97,12 @@ Picture picture_of(const Selection& shown, const Abscissa& over, const StudiedRe
   std::string along;
   for (const std::string& other : over.along)
     along += fmt::format("{}{}", along.empty() ? "; along with it goes " : ", ", other);
-  return {.name = fmt::format("study_{}_{}{}", file_name(entry), property.name, shown.ending),
-          .caption = fmt::format("{}{} over {}: mean ± standard deviation over the seeds{}{}",
-                                 char(std::toupper(property.title.front())), property.title.substr(1), entry, along,
-                                 shown.remark),
-          .alternative = fmt::format("The {} over the values of {}; the numbers are in the table of the comparison.",
-                                     property.title, entry),
-          .width = width,
-          .height = 420 + further_height(chart, width),
-          .panels = {std::move(chart)}};
+  return picture_of(std::move(chart), 660, 420,
+                    fmt::format("study_{}_{}{}", file_name(entry), property.name, shown.ending),
+                    fmt::format("{} over {}: mean ± standard deviation over the seeds{}{}",
+                                with_capital(property.title), entry, along, shown.remark),
+                    fmt::format("The {} over the values of {}; the numbers are in the table of the comparison.",
+                                property.title, entry));
 }
 
 /// Results over two entries.
@@ -128,7 +122,7 @@ Cells cells_of(const std::vector<Series>& all, const std::vector<Abscissa>& over
         std::array<std::optional<double>, 2> place;
         for (const VariantSetting& setting : test.settings)
           for (std::size_t c = 0; c < 2; ++c)
-            if (setting.entry == over[c].varied.entry)
+            if (setting.entry == over[c].entry)
               place[c] = number_of(setting)->value;
         if (place[0] && place[1])
           cells[{*place[0], *place[1]}].push_back(*figure.value / property.scale);
@@ -186,11 +180,11 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
     }
   if (cells.size() > most_labels)
     numbers = {};
-  const std::array<std::string, 2> names{over[0].varied.entry, over[1].varied.entry};
+  const std::array<std::string, 2> names{over[0].entry, over[1].entry};
   std::array<ChartAxis, 2> axes;
   for (std::size_t c = 0; c < 2; ++c)
     {
-      axes[c] = {.label = with_unit(names[c], over[c].varied.unit), .room = is_grid ? 0.0 : 0.04};
+      axes[c] = {.label = with_unit(names[c], over[c].unit), .room = is_grid ? 0.0 : 0.04};
       if (is_grid) // its fields reach beyond the values
         {
           axes[c].from = cell_about(*values[c].begin(), values[c])[0];
@@ -199,8 +193,8 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
     }
   return Picture{
     .name = fmt::format("study_map_{}_{}_{}_{}", file_name(names[0]), file_name(names[1]), property.name, group.name()),
-    .caption = fmt::format("{}{}, {}, over {} and {}: mean over the seeds", char(std::toupper(property.title.front())),
-                           property.title.substr(1), group.title(), names[0], names[1]),
+    .caption = fmt::format("{}, {}, over {} and {}: mean over the seeds", with_capital(property.title), group.title(),
+                           names[0], names[1]),
     .alternative = fmt::format("A map of the {} over {} and {}; the numbers are in the table of the comparison.",
                                property.title, names[0], names[1]),
     .width = 660,
@@ -212,34 +206,28 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
                 .key_columns = 1,
                 .series = {std::move(fields), std::move(numbers)}}}};
 }
-
-std::vector<Picture> maps(const std::vector<Series>& all, const std::vector<Abscissa>& over)
-{
-  if (over.size() != 2)
-    return {};
-  std::vector<TestGroup> groups;
-  for (const Series& series : all)
-    for (const TestGroup& group : groups_of(series))
-      if (std::ranges::none_of(groups, [&](const TestGroup& one) { return same_conditions(one, group); }))
-        groups.push_back(group);
-  std::vector<Picture> pictures;
-  for (const StudiedResult& property : studied_results(all))
-    for (const TestGroup& group : shown(groups))
-      if (auto map = map_of(all, over, property, group))
-        pictures.push_back(std::move(*map));
-  return pictures;
-}
 } // namespace
 
 std::vector<Picture> study_pictures(const std::vector<Series>& all)
 {
   std::vector<Picture> pictures;
+  const std::vector<StudiedResult> properties = studied_results(all);
   const std::vector<Abscissa> over_all = abscissas(all);
   for (const Abscissa& over : over_all)
-    for (const StudiedResult& property : studied_results(all))
+    for (const StudiedResult& property : properties)
       for (const Selection& selection : selections(all, over, property))
-        pictures.push_back(picture_of(selection, over, property));
-  append(pictures, maps(all, over_all));
+        append(pictures, lines_picture(selection, over, property));
+  if (over_all.size() != 2)
+    return pictures;
+  std::vector<TestGroup> groups;
+  for (const Series& series : all)
+    for (const TestGroup& group : groups_of(series))
+      if (std::ranges::none_of(groups, [&](const TestGroup& one) { return same_conditions(one, group); }))
+        groups.push_back(group);
+  for (const StudiedResult& property : properties)
+    for (const TestGroup& group : shown(groups))
+      if (auto map = map_of(all, over_all, property, group))
+        pictures.push_back(std::move(*map));
   return pictures;
 }
 } // namespace feldspar

@@ -1,5 +1,5 @@
+#include "base/contains.h"
 #include "report/pictures/calibration_pictures.h"
-#include "report/pictures/figures.h"
 #include "report/sections/sections.h"
 #include "report/sections/text.h"
 #include "report/sections/verdict.h"
@@ -30,11 +30,6 @@ std::string shown_interval(const double si_low, const double si_high, const Show
   return fmt::format("{} to {}", shown(si_low, unit), shown(si_high, unit));
 }
 
-std::string heading(const std::string& title, const ShownUnit& unit)
-{
-  return unit.name.empty() ? title : fmt::format("{} [{}]", title, unit.name);
-}
-
 /// Returns whether specimens with the answer's parameters were tested. Only then are there medians, even where every
 /// test of them failed.
 bool was_tested(const CalibrationRecord& record)
@@ -53,6 +48,7 @@ std::string decision_on(const CalibrationRecord& record)
       open.push_back(row.title);
   const std::string tolerance = fmt::format("{:g} %", 100.0 * record.tolerance);
   const std::size_t n = record.targets.size();
+  const std::size_t n_reached = n - missed.size() - open.size();
   if (missed.empty() && open.empty())
     return fmt::format("Reached. {} within {} of the laboratory's value.",
                        n == 1 ? "The target lies" : fmt::format("All {} targets lie", n), tolerance);
@@ -62,8 +58,7 @@ std::string decision_on(const CalibrationRecord& record)
   if (!open.empty())
     decision +=
       fmt::format("{}{} more packings", decision.empty() ? "Not decided. " : ". ", subject_of(open, "needs", "need"));
-  return decision + fmt::format("; {} of {} targets {} reached.", n - missed.size() - open.size(), n,
-                                n - missed.size() - open.size() == 1 ? "is" : "are");
+  return decision + fmt::format("; {} of {} targets {} reached.", n_reached, n, n_reached == 1 ? "is" : "are");
 }
 
 /// A target as a tile: the mean with its 95 % interval on a bar with the tolerance.
@@ -98,13 +93,12 @@ Table target_table(const CalibrationRecord& record)
     "calibration_targets",
     tested ? "Targets, and what the answer reached on packings by which nothing was chosen"
            : "Targets, and what the surrogates predict of the nearest micro-parameters; no specimen tested them",
-    {"figure", "target", tested ? "reached" : "predicted", "standard error", "deviation", "packings", "verdict"},
-    {}};
+    {"figure", "target", tested ? "reached" : "predicted", "standard error", "deviation", "packings", "verdict"}};
   for (const auto& row : record.targets)
     {
       const ShownUnit unit = shown_unit(row.unit, row.target);
       const bool is_prediction = tested && !(row.n_packings > 0.0);
-      table.rows.push_back({heading(row.title, unit), shown(row.target, unit, 4),
+      table.rows.push_back({with_unit(row.title, unit.name), shown(row.target, unit, 4),
                             shown(row.reached, unit, 4) + (is_prediction ? " (predicted)" : ""),
                             row.standard_error ? shown(*row.standard_error, unit, 2) : none,
                             signed_percent(row.deviation), row.n_packings > 0.0 ? number(row.n_packings, 0) : none,
@@ -119,13 +113,12 @@ Table parameter_table_of(const CalibrationRecord& record)
   Table table{"calibration_parameters",
               tested ? "Micro-parameters: those of the answer, and what else agrees with the tests"
                      : "Micro-parameters that come nearest to the targets",
-              {"parameter", tested ? "answer" : "nearest", "median", "90 % interval", "verdict"},
-              {}};
+              {"parameter", tested ? "answer" : "nearest", "median", "90 % interval", "verdict"}};
   for (const auto& row : record.parameters)
     {
       const ShownUnit unit = shown_unit(row.unit, row.best);
       table.rows.push_back(
-        {heading(row.title, unit), shown(row.best, unit), row.median ? shown(*row.median, unit) : none,
+        {with_unit(row.title, unit.name), shown(row.best, unit), row.median ? shown(*row.median, unit) : none,
          row.lower_90 && row.upper_90 ? shown_interval(*row.lower_90, *row.upper_90, unit) : none, row.verdict});
     }
   return table;
@@ -135,38 +128,29 @@ Table prediction_table(const CalibrationRecord& record)
 {
   Table table{"calibration_predictions",
               "Figures of the tests that were no targets: the band in which 90 % of what agrees with the targets lies",
-              {"figure", "median", "90 % interval"},
-              {}};
+              {"figure", "median", "90 % interval"}};
   for (const auto& row : record.predictions)
-    {
-      const bool is_target =
-        std::ranges::any_of(record.targets, [&](const auto& target) { return target.name == row.name; });
-      const ShownUnit unit = shown_unit(row.unit, row.median);
-      if (!is_target)
+    if (!contains(record.targets, row.name, &CalibrationRecord::TargetRow::name))
+      {
+        const ShownUnit unit = shown_unit(row.unit, row.median);
         table.rows.push_back(
-          {heading(row.title, unit), shown(row.median, unit), shown_interval(row.lower_90, row.upper_90, unit)});
-    }
+          {with_unit(row.title, unit.name), shown(row.median, unit), shown_interval(row.lower_90, row.upper_90, unit)});
+      }
   return table;
 }
 
-/// Title of a figure or a parameter in tables; none if no row has this name.
+/// Title of a figure or a parameter in tables.
 template <typename Row>
-std::optional<std::string> title_in(const std::vector<Row>& rows, const std::string& name)
+std::string title_in(const std::vector<Row>& rows, const std::string& name, const std::string& otherwise)
 {
   const auto found = std::ranges::find(rows, name, &Row::name);
-  return found == rows.end() ? std::nullopt : std::optional(found->title);
+  return found == rows.end() ? otherwise : found->title;
 }
 
 std::string words_of_name(std::string name)
 {
   std::ranges::replace(name, '_', ' ');
   return name;
-}
-
-std::string title_of_figure(const CalibrationRecord& record, const std::string& name)
-{
-  const auto target = title_in(record.targets, name);
-  return target ? *target : title_in(record.predictions, name).value_or(words_of_name(name));
 }
 
 Table sensitivity_table(const CalibrationRecord& record)
@@ -176,12 +160,12 @@ Table sensitivity_table(const CalibrationRecord& record)
     "Sobol indices: the share of a figure's variance between the bounds that a ratio alone explains, and with "
     "its interactions. They are of what is left beside the scales and the intact rock: strengths over the "
     "bond strength, Young's modulus over that of intact cells, Poisson's ratio less that of intact cells",
-    {"figure", "ratio", "alone", "in all"},
-    {}};
+    {"figure", "ratio", "alone", "in all"}};
   for (const auto& row : record.sensitivities)
-    table.rows.push_back({title_of_figure(record, row.response),
-                          title_in(record.parameters, row.parameter).value_or(words_of_name(row.parameter)),
-                          number(row.first_order, 2), number(row.total, 2)});
+    table.rows.push_back(
+      {title_in(record.targets, row.response, title_in(record.predictions, row.response, words_of_name(row.response))),
+       title_in(record.parameters, row.parameter, words_of_name(row.parameter)), number(row.first_order, 2),
+       number(row.total, 2)});
   return table;
 }
 } // namespace
@@ -189,10 +173,8 @@ Table sensitivity_table(const CalibrationRecord& record)
 PageSection calibration_section(const CalibrationRecord& record, PictureBook& book)
 {
   const bool tested = was_tested(record);
-  PageSection section{"calibration",
-                      "Calibration",
-                      tested ? "Were the targets reached?" : "Which micro-parameters come nearest to the targets?",
-                      {}};
+  PageSection section{"calibration", "Calibration",
+                      tested ? "Were the targets reached?" : "Which micro-parameters come nearest to the targets?"};
   PageBlock block;
   block.headline = tested ? decision_on(record) : sentence(record.statement);
   for (const auto& row : record.targets)
@@ -215,7 +197,7 @@ PageSection calibration_section(const CalibrationRecord& record, PictureBook& bo
   for (const auto& row : record.parameters)
     if (!row.sentence.empty())
       block.points.push_back(row.sentence);
-  block.pictures = book.keep(pictures_of(calibration_figures, record));
+  block.pictures = book.keep(pair_picture(record));
   section.blocks.push_back(block);
   PageBlock more;
   if (Table table = prediction_table(record); !table.rows.empty())

@@ -15,9 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace feldspar
@@ -36,16 +36,6 @@ BySeed by_seed(const std::vector<FinishedTest>& tests, const PropertySource sour
   return values;
 }
 
-/// One value a seed, of the body that it was tested on.
-BySeed of_bodies(const std::vector<FinishedTest>& tests, double SpecimenReport::*figure)
-{
-  BySeed values;
-  for (const auto& [seed, body] : whole_bodies(tests))
-    if (body.n_grains > 0 && std::isfinite(body.*figure))
-      values[seed] = body.*figure;
-  return values;
-}
-
 std::map<std::uint64_t, std::vector<EnvelopePoint>> points_by_seed(const std::vector<FinishedTest>& tests)
 {
   std::map<std::uint64_t, std::vector<EnvelopePoint>> points;
@@ -55,25 +45,30 @@ std::map<std::uint64_t, std::vector<EnvelopePoint>> points_by_seed(const std::ve
   return points;
 }
 
-/// Mohr-Coulomb line of each seed with more points of compression than the line has parameters.
-std::map<std::uint64_t, MohrCoulombFit> lines_by_seed(const std::vector<FinishedTest>& tests)
+/// The results of a function for the data of each seed, where it has one.
+template <typename Data, typename Of>
+auto where_found(const std::map<std::uint64_t, Data>& of_seeds, const Of& of)
 {
-  std::map<std::uint64_t, MohrCoulombFit> lines;
-  for (const auto& [seed, points] : points_by_seed(tests))
-    if (const auto line = fit_mohr_coulomb({points, std::nullopt, std::nullopt}).fit;
-        line && line->quality.degrees_of_freedom > 0)
-      lines[seed] = *line;
-  return lines;
+  std::map<std::uint64_t, typename std::invoke_result_t<Of, const Data&>::value_type> found;
+  for (const auto& [seed, data] : of_seeds)
+    if (const auto result = of(data))
+      found[seed] = *result;
+  return found;
 }
 
-/// m_i of each seed that was also tested without confinement.
-BySeed rock_constants_by_seed(const std::vector<FinishedTest>& tests)
+/// One value a seed, of the body that it was tested on.
+BySeed of_bodies(const std::vector<FinishedTest>& tests, double SpecimenReport::*figure)
 {
-  BySeed constants;
-  for (const auto& [seed, points] : points_by_seed(tests))
-    if (const auto constant = rock_constant(points))
-      constants[seed] = *constant;
-  return constants;
+  return where_found(whole_bodies(tests), [&](const SpecimenReport& body) {
+    return body.n_grains > 0 && std::isfinite(body.*figure) ? std::optional(body.*figure) : std::nullopt;
+  });
+}
+
+/// Mohr-Coulomb line with more points of compression than the line has parameters.
+std::optional<MohrCoulombFit> line_through(const std::vector<EnvelopePoint>& points)
+{
+  const auto line = fit_mohr_coulomb({points, std::nullopt, std::nullopt}).fit;
+  return line && line->quality.degrees_of_freedom > 0 ? line : std::nullopt;
 }
 
 std::string megapascals(const double stress) { return fmt::format("{:g}", std::round(stress) / 1e6); }
@@ -144,21 +139,7 @@ std::map<std::uint64_t, ShearLine> shear_lines(const std::vector<FinishedTest>& 
   for (const auto& test : tests)
     if (test.record.kind.pressure_acts_across)
       of_seed[test.record.seed].push_back(&test);
-  std::map<std::uint64_t, ShearLine> lines;
-  for (const auto& [seed, sheared] : of_seed)
-    if (const auto line = fit_shear_line(sheared).line)
-      lines[seed] = *line;
-  return lines;
-}
-
-/// A figure of each of them.
-template <typename Fits, typename Of>
-BySeed each(const Fits& fits, const Of& of)
-{
-  BySeed values;
-  for (const auto& [seed, fit] : fits)
-    values[seed] = of(fit);
-  return values;
+  return where_found(of_seed, [](const auto& sheared) { return fit_shear_line(sheared).fit; });
 }
 
 /// Strengths that are no property of the table, each under each of its pressures.
@@ -179,6 +160,15 @@ std::vector<std::pair<TestGroup, BySeed>> other_strengths(const std::vector<Fini
       }
   std::ranges::stable_sort(others, [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
   return others;
+}
+
+constexpr std::size_t page = 80; // characters of a line
+
+/// Returns whether a property is given to a model instead of expected from it.
+bool is_given(const std::string_view key)
+{
+  return std::ranges::any_of(
+    rock_properties, [&](const RockProperty& one) { return one.source == PropertySource::given && one.key == key; });
 }
 } // namespace
 
@@ -270,15 +260,17 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
         add_property(property, ratio, flawed ? "highest nominal stresses, tension over compression" : "");
       }
 
-  const auto envelopes = lines_by_seed(tests);
+  const auto points = points_by_seed(tests);
+  const auto envelopes = where_found(points, line_through);
   if (!envelopes.empty() || (reference && reference->experiment.line()))
     {
       add_property(rock_property("friction_angle_deg"),
-                   each(envelopes, [](const auto& fit) { return fit.friction_angle.value; }));
-      add_property(rock_property("cohesion_MPa"), each(envelopes, [](const auto& fit) { return fit.cohesion.value; }));
+                   where_found(envelopes, [](const auto& fit) { return std::optional(fit.friction_angle.value); }));
+      add_property(rock_property("cohesion_MPa"),
+                   where_found(envelopes, [](const auto& fit) { return std::optional(fit.cohesion.value); }));
     }
   if (reference && (reference->experiment.find("m_i") || reference->model.find("m_i")))
-    add_property(rock_property("m_i"), rock_constants_by_seed(tests));
+    add_property(rock_property("m_i"), where_found(points, rock_constant));
   for (const auto& [group, strengths] : other_strengths(tests))
     add(strength_row(group, flawed), display::megapascals(group.kind.strength_decimals), strengths, strength_key(group),
         mega);
@@ -297,9 +289,9 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
   if (const auto lines = shear_lines(tests); !lines.empty())
     {
       add_property(rock_property("direct_shear_friction_angle_deg"),
-                   each(lines, [](const auto& line) { return line.friction_angle; }));
+                   where_found(lines, [](const auto& line) { return std::optional(line.friction_angle); }));
       add_property(rock_property("direct_shear_cohesion_MPa"),
-                   each(lines, [](const auto& line) { return line.cohesion; }));
+                   where_found(lines, [](const auto& line) { return std::optional(line.cohesion); }));
     }
   // Rows that identify the body: two bodies with different gaps are different rocks.
   for (double SpecimenReport::*const member :
@@ -326,18 +318,6 @@ std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue
     text += fmt::format(" ({})", range);
   return value->n ? text : text + unit;
 }
-
-namespace
-{
-constexpr std::size_t page = 80; // characters of a line
-
-/// Returns whether a property is given to a model instead of expected from it.
-bool is_given(const std::string_view key)
-{
-  return std::any_of(std::begin(rock_properties), std::end(rock_properties),
-                     [&](const RockProperty& one) { return one.source == PropertySource::given && one.key == key; });
-}
-} // namespace
 
 std::vector<std::string> properties_without_a_test(const std::vector<ComparisonRow>& rows,
                                                    const std::optional<Reference>& reference)

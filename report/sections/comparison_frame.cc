@@ -1,12 +1,14 @@
-#include "report/sections/comparison_frame.h"
+#include "report/sections/tables.h"
 
 #include "base/append.h"
+#include "base/mapped.h"
 #include "base/text.h"
-#include "results/varied_columns.h"
+#include "results/variant_setting.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -32,89 +34,67 @@ const char* name_of(const SeriesKind kind)
                                                : "laboratory curve";
 }
 
-/// A figure as a series has it or a reference gives it.
-struct FrameFigure
-{
-  std::optional<double> mean = std::nullopt;
-  std::optional<double> standard_deviation = std::nullopt;
-  std::optional<std::size_t> n = std::nullopt;
-  std::optional<double> mean_95_low = std::nullopt;
-  std::optional<double> mean_95_high = std::nullopt;
-  std::optional<double> range_low = std::nullopt;
-  std::optional<double> range_high = std::nullopt;
-  std::optional<double> deviation = std::nullopt;
-  std::optional<bool> in_range = std::nullopt;
-  std::optional<RangeVerdict> verdict = std::nullopt;
-};
+using FrameRow = std::vector<std::string>;
 
-FrameFigure figure_of(const Statistics& ours)
-{
-  FrameFigure figure{.mean = ours.mean, .standard_deviation = ours.standard_deviation, .n = ours.n};
-  if (ours.confidence_95)
-    {
-      figure.mean_95_low = ours.mean - *ours.confidence_95;
-      figure.mean_95_high = ours.mean + *ours.confidence_95;
-    }
-  return figure;
-}
+/// Lower and upper ends of the interval of a mean, then of the range; none where they are not known.
+using Ends = std::array<std::optional<double>, 4>;
 
-FrameFigure figure_of(const ReferenceValue& value)
-{
-  return {.mean = value.mean,
-          .standard_deviation = value.standard_deviation,
-          .n = value.n,
-          .range_low = value.low,
-          .range_high = value.high};
-}
-
-/// Source, its kind and its varied entries: the first cells of its rows.
-using Beginning = std::vector<std::string>;
-
-/// A unit of the page that is a power of ten goes into the numbers.
-std::vector<std::string> row_of(const Beginning& source, const std::string& property, const std::string& unit,
-                                const FrameFigure& figure)
+/// A row behind `source`, which has the source, its kind and its varied entries. A unit of the page that is a power of ten
+/// goes into the numbers. `against_rock` has the last three cells.
+template <typename Of>
+FrameRow row_of(const FrameRow& source, const std::string& property, const std::string& unit, const Of& figure,
+                const Ends& ends, const FrameRow& against_rock)
 {
   const bool is_power = is_decimal_number(unit);
   const double scale = is_power ? parse_number(unit) : 1.0;
   const auto scaled = [&](const std::optional<double>& value) {
     return cell(value ? std::optional(*value * scale) : std::nullopt);
   };
-  std::vector<std::string> row = source;
+  const std::optional<std::size_t> n = figure.n;
+  FrameRow row = source;
   append(row, {property, is_power ? "" : unit, scaled(figure.mean), scaled(figure.standard_deviation),
-               figure.n ? fmt::format("{}", *figure.n) : "", scaled(figure.mean_95_low), scaled(figure.mean_95_high),
-               scaled(figure.range_low), scaled(figure.range_high), cell(figure.deviation), cell(figure.in_range),
-               figure.verdict ? name(*figure.verdict) : ""});
+               n ? fmt::format("{}", *n) : ""});
+  append(row, mapped<std::string>(ends, scaled));
+  append(row, against_rock);
   return row;
 }
 
+FrameRow row_of(const FrameRow& source, const std::string& property, const std::string& unit, const Statistics& ours,
+                const FrameRow& against_rock = {"", "", ""})
+{
+  const auto& half = ours.confidence_95;
+  const Ends ends{half ? std::optional(ours.mean - *half) : std::nullopt,
+                  half ? std::optional(ours.mean + *half) : std::nullopt};
+  return row_of(source, property, unit, ours, ends, against_rock);
+}
+
 /// Adds the reference's values of all properties in which the series are compared.
-void add_reference(DataFrame& frame, const Findings& findings, const Beginning& source,
-                   std::optional<ReferenceValue> ComparisonRow::*value)
+void add_reference(DataFrame& frame, const Findings& findings, const FrameRow& source,
+                   std::optional<ReferenceValue> ComparisonRow::*member)
 {
   std::set<std::string> known;
   for (const std::size_t n : compared_series(findings))
     for (const ComparisonRow& row : findings.comparisons[n])
-      if (row.*value && known.insert(row.property).second)
-        frame.rows.push_back(row_of(source, row.property, row.unit, figure_of(*(row.*value))));
+      if (const auto& value = row.*member; value && known.insert(row.property).second)
+        frame.rows.push_back(row_of(source, row.property, row.unit, *value,
+                                    {std::nullopt, std::nullopt, value->low, value->high}, {"", "", ""}));
 }
 
 void add_series(DataFrame& frame, const Series& series, const std::vector<ComparisonRow>& comparison,
-                const Beginning& source)
+                const FrameRow& source)
 {
   for (const ComparisonRow& row : comparison)
     if (row.ours)
       {
-        FrameFigure figure = figure_of(*row.ours);
-        figure.deviation = row.deviation();
-        figure.in_range = row.in_range();
-        figure.verdict = row.against_range();
-        frame.rows.push_back(row_of(source, row.property, row.unit, figure));
+        const auto verdict = row.against_range();
+        frame.rows.push_back(row_of(source, row.property, row.unit, *row.ours,
+                                    {cell(row.deviation()), cell(row.in_range()), verdict ? name(*verdict) : ""}));
       }
   if (const auto cost = cost_of(series))
     {
-      frame.rows.push_back(row_of(source, "grains of a specimen", "", figure_of(cost->grains)));
+      frame.rows.push_back(row_of(source, "grains of a specimen", "", cost->grains));
       frame.rows.push_back(
-        row_of(source, "time that passed in all tests of a specimen, each on one core", "s", figure_of(cost->time)));
+        row_of(source, "time that passed in all tests of a specimen, each on one core", "s", cost->time));
     }
 }
 } // namespace
@@ -162,7 +142,7 @@ DataFrame comparison_frame(const Findings& findings)
     settings.push_back(findings.all[n].tests.front().settings);
   const std::vector<VariedColumn> varied = varied_columns(settings);
 
-  DataFrame frame{{"source", "kind"}, {}};
+  DataFrame frame{{"source", "kind"}};
   for (const VariedColumn& column : varied)
     frame.header.push_back(column.heading());
   append(frame.header, {"property", "unit", "mean", "standard_deviation", "n", "mean_95_low", "mean_95_high",
@@ -170,7 +150,7 @@ DataFrame comparison_frame(const Findings& findings)
 
   const auto beginning = [&](const std::string& source, const std::string& kind,
                              const std::vector<VariantSetting>& of_source) {
-    Beginning cells{source, kind};
+    FrameRow cells{source, kind};
     for (const VariedColumn& column : varied)
       cells.push_back(column.cell(of_source));
     return cells;

@@ -1,9 +1,8 @@
-#include "report/sections/comparison_table.h"
+#include "report/sections/tables.h"
 
 #include "base/append.h"
 #include "base/contains.h"
 #include "report/pictures/plot_style.h"
-#include "report/sections/comparison_frame.h"
 #include "report/sections/text.h"
 #include "results/runs/test_groups.h"
 #include "results/statistics.h"
@@ -64,22 +63,6 @@ std::vector<std::string> arranged(const std::string& heading, const std::vector<
   return line;
 }
 
-/// Properties of these series by their names, in the order in which they come.
-std::vector<std::string> properties_of(const Findings& findings, const std::vector<std::size_t>& compared)
-{
-  std::vector<std::string> properties;
-  for (const std::size_t n : compared)
-    for (const auto& row : findings.comparisons[n])
-      if ((row.ours || row.experiment || row.model) && !contains(properties, row.property))
-        properties.push_back(row.property);
-  return properties;
-}
-
-std::vector<ComparisonRow>::const_iterator row_of(const std::vector<ComparisonRow>& rows, const std::string& property)
-{
-  return std::ranges::find(rows, property, &ComparisonRow::property);
-}
-
 /// Ours: mean, standard deviation and the number of specimens, or the values of two.
 std::string as_text(const ComparisonRow& row)
 {
@@ -88,6 +71,50 @@ std::string as_text(const ComparisonRow& row)
   const std::string text = mean_and_deviation(*row.ours, 1.0, row.decimals);
   return row.ours->n == 2 ? text : fmt::format("{} (n = {})", text, row.ours->n);
 }
+
+/// A property of these series with the cells of the reference.
+struct ComparedProperty
+{
+  std::string name;
+  std::string heading = {};
+  std::vector<std::string> experiment_and_model = {none, none};
+  std::vector<const ComparisonRow*> rows = {}; ///< of each series; an empty row where it has none
+};
+
+/// Properties of these series in the order in which they come.
+std::vector<ComparedProperty> compared_properties(const Findings& findings, const std::vector<std::size_t>& compared)
+{
+  static const ComparisonRow nothing{};
+  std::vector<ComparedProperty> properties;
+  for (const std::size_t n : compared)
+    for (const auto& row : findings.comparisons[n])
+      if ((row.ours || row.experiment || row.model) && !contains(properties, row.property, &ComparedProperty::name))
+        properties.push_back({row.property});
+  for (auto& [name, heading, experiment_and_model, rows] : properties)
+    for (const std::size_t n : compared)
+      {
+        const auto found = std::ranges::find(findings.comparisons[n], name, &ComparisonRow::property);
+        rows.push_back(found == findings.comparisons[n].end() ? &nothing : &*found);
+        const ComparisonRow& row = *rows.back();
+        if (&row != &nothing)
+          heading = with_unit(row.property, row.unit);
+        if (row.experiment)
+          experiment_and_model[0] = as_text(row, row.experiment);
+        if (row.model)
+          experiment_and_model[1] = as_text(row, row.model);
+      }
+  return properties;
+}
+
+/// Grains and time of a specimen.
+std::array<std::string, 2> cost_cells(const Series& series)
+{
+  const auto cost = cost_of(series);
+  return {cost ? mean_and_deviation(cost->grains, 1.0, 0) : none, cost ? mean_and_deviation(cost->time, 1.0, 0) : none};
+}
+
+constexpr std::array cost_headings{"grains of a specimen",
+                                   "time that passed in all tests of a specimen, each on one core [s]"};
 
 /// A sentence on how sure the standard deviations are, by the fewest specimens of any; empty where no result has one.
 std::string deviation_note(const Findings& findings, const std::vector<std::size_t>& compared)
@@ -114,8 +141,7 @@ Table measured_table(const Findings& findings, const TestGroup& curve, const std
                                   : PropertySource::compression;
   Table table{"",
               curve.title() + ": measured and model, mean ± standard deviation over the seeds",
-              {"property", label},
-              {}};
+              {"property", label}};
   // The model was hardly pressed with just the pressure of the laboratory.
   const auto is_alike = [&](const TestGroup& group) {
     return group.kind == curve.kind && group.intermediate_stress == curve.intermediate_stress &&
@@ -141,13 +167,10 @@ Table measured_table(const Findings& findings, const TestGroup& curve, const std
         const Figure& first = curve.tests.front()->results.*property.figure;
         std::vector<std::string> row{with_unit(quantity_of(property.figure).title, unit),
                                      curve.tests.size() == 1 && first.value ? number(first, scale, decimals)
-                                     : over_curves ? mean_and_deviation(*over_curves, scale, decimals)
+                                     : over_curves ? mean_and_deviation(over_curves, scale, decimals)
                                                    : fmt::format("{} ({})", none, first.reason)};
         for (const auto& group : beside)
-          {
-            const auto over_seeds = statistics(values(group, property.figure));
-            row.push_back(over_seeds ? mean_and_deviation(*over_seeds, scale, decimals) : none);
-          }
+          row.push_back(mean_and_deviation(statistics(values(group, property.figure)), scale, decimals));
         table.rows.push_back(row);
       }
   if (beside.empty())
@@ -165,47 +188,26 @@ Table comparison_of_many(const Findings& findings)
               {"series"},
               {},
               comparison_frame(findings)};
-  std::vector<std::string> experiment, other_model;
+  std::vector<std::vector<std::string>> of_reference; // experiment and model
   if (findings.reference)
-    {
-      experiment = {findings.reference->experiment.label + ", mean (range)"};
-      other_model = {findings.reference->model.label};
-    }
+    of_reference = {{findings.reference->experiment.label + ", mean (range)"}, {findings.reference->model.label}};
   for (const std::size_t n : compared)
     table.rows.push_back({findings.all[n].label});
-  for (const auto& property : properties_of(findings, compared))
+  for (const ComparedProperty& property : compared_properties(findings, compared))
     {
-      std::string heading;
-      std::array<std::string, 2> of_reference{none, none};
+      append(table.header, {property.heading, property.name + " against experiment"});
       for (std::size_t k = 0; k < compared.size(); ++k)
-        {
-          const auto& rows = findings.comparisons[compared[k]];
-          const auto row = row_of(rows, property);
-          if (row == rows.end())
-            {
-              append(table.rows[k], {none, none});
-              continue;
-            }
-          heading = with_unit(row->property, row->unit);
-          append(table.rows[k], {as_text(*row), against_experiment(*row)});
-          if (row->experiment)
-            of_reference[0] = as_text(*row, row->experiment);
-          if (row->model)
-            of_reference[1] = as_text(*row, row->model);
-        }
-      append(table.header, {heading, property + " against experiment"});
-      append(experiment, {of_reference[0], none});
-      append(other_model, {of_reference[1], none});
+        append(table.rows[k], {as_text(*property.rows[k]), against_experiment(*property.rows[k])});
+      for (std::size_t k = 0; k < of_reference.size(); ++k)
+        append(of_reference[k], {property.experiment_and_model[k], none});
     }
-  append(table.header, {"grains of a specimen", "time that passed in all tests of a specimen, each on one core [s]"});
-  for (std::size_t k = 0; k < compared.size(); ++k)
+  for (std::size_t c = 0; c < cost_headings.size(); ++c)
     {
-      const auto cost = cost_of(findings.all[compared[k]]);
-      append(table.rows[k], {cost ? mean_and_deviation(cost->grains, 1.0, 0) : none,
-                             cost ? mean_and_deviation(cost->time, 1.0, 0) : none});
+      table.header.emplace_back(cost_headings[c]);
+      for (std::size_t k = 0; k < compared.size(); ++k)
+        table.rows[k].push_back(cost_cells(findings.all[compared[k]])[c]);
     }
-  if (findings.reference)
-    table.rows.insert(table.rows.begin(), {experiment, other_model});
+  table.rows.insert(table.rows.begin(), of_reference.begin(), of_reference.end());
   return table;
 }
 
@@ -213,7 +215,6 @@ Table comparison_table(const Findings& findings)
 {
   const std::vector<std::size_t> compared = compared_series(findings);
   const bool any_model = findings.all[compared.front()].kind != SeriesKind::laboratory_curve;
-  const std::vector<std::string> properties = properties_of(findings, compared);
   const bool one = compared.size() == 1;
 
   Table table{
@@ -221,7 +222,7 @@ Table comparison_table(const Findings& findings)
     "Model and rock. ± is the standard deviation over the seeds" + deviation_note(findings, compared) +
       ". The interval is that of the mean, 95 %, by Student's t, from three specimens on and where it does not reach 0. " +
       note_on_ranges,
-    {"property"},
+    {},
     {},
     comparison_frame(findings)};
   // With one series the model stands beside the rock; with several, each is compared with the rock, which comes first.
@@ -233,46 +234,24 @@ Table comparison_table(const Findings& findings)
     append(of_series,
            {one && any_model ? "model" : findings.all[n].label, "against experiment", "95 % interval of the mean"});
   table.header = arranged("property", rock, of_series, one);
-  for (const auto& property : properties)
+  for (const ComparedProperty& property : compared_properties(findings, compared))
     {
-      std::string heading;
       std::vector<std::string> ours;
-      std::string experiment = none;
-      std::string model = none;
-      for (const std::size_t n : compared)
-        {
-          const auto& rows = findings.comparisons[n];
-          const auto row = row_of(rows, property);
-          if (row == rows.end())
-            {
-              append(ours, {none, none, none});
-              continue;
-            }
-          heading = with_unit(row->property, row->unit);
-          append(ours, {as_text(*row), against_experiment(*row),
-                        row->ours ? interval(*row->ours, 1.0, row->decimals) : none});
-          if (row->experiment)
-            experiment = as_text(*row, row->experiment);
-          if (row->model)
-            model = as_text(*row, row->model);
-        }
+      for (const ComparisonRow* const row : property.rows)
+        append(ours, {as_text(*row), against_experiment(*row), interval(row->ours, 1.0, row->decimals)});
       if (findings.reference)
-        rock = {experiment, model};
-      table.rows.push_back(arranged(heading, rock, ours, one));
+        rock = property.experiment_and_model;
+      table.rows.push_back(arranged(property.heading, rock, ours, one));
     }
-  if (one)
-    return table;
+  rock.assign(rock.size(), none);
   // Series of one rock are also told apart by what they cost.
-  std::vector<std::string> grains, times;
-  for (const std::size_t n : compared)
+  for (std::size_t c = 0; c < cost_headings.size() && !one; ++c)
     {
-      const auto cost = cost_of(findings.all[n]);
-      append(grains, {cost ? mean_and_deviation(cost->grains, 1.0, 0) : none, none, none});
-      append(times, {cost ? mean_and_deviation(cost->time, 1.0, 0) : none, none, none});
+      std::vector<std::string> ours;
+      for (const std::size_t n : compared)
+        append(ours, {cost_cells(findings.all[n])[c], none, none});
+      table.rows.push_back(arranged(cost_headings[c], rock, ours, one));
     }
-  rock.assign(findings.reference ? 2 : 0, none);
-  table.rows.push_back(arranged("grains of a specimen", rock, grains, one));
-  table.rows.push_back(arranged("time that passed in all tests of a specimen, each on one core [s]", rock, times, one));
   return table;
 }
 

@@ -2,9 +2,8 @@
 
 #include "base/append.h"
 #include "report/pictures/curves/curve_pictures.h"
-#include "report/pictures/figures.h"
 #include "report/pictures/maps/specimen_data.h"
-#include "report/sections/test_tables.h"
+#include "report/sections/tables.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
 
@@ -43,7 +42,7 @@ std::vector<Picture> taken_for_viewer(const ShownTogether& together, std::vector
 
 PageSection crack_section(const Findings& findings, PictureBook& book)
 {
-  PageSection section{"cracks", "Cracks", "Cracks", {}};
+  PageSection section{"cracks", "Cracks", "Cracks"};
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       const Series& series = findings.all[n];
@@ -89,10 +88,8 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
           series.kind == SeriesKind::finite_elements
             ? "No crack map: there are no cracks, or no test with a peak, in this result folder."
             : "No crack map: the positions of the grains, or a test with a peak, are missing in this result folder.");
-      const SeriesAmong among{findings.all, n, findings.envelopes[n], findings.reference};
       block.pictures = place(taken_for_viewer(together, maps));
-      append(block.pictures, place(pictures_of(direction_figures, among)));
-      append(block.pictures, place(pictures_of(fragment_size_figures, among)));
+      append(block.pictures, place(pictures_of(crack_figures_of_series, findings.among(n))));
       PageBlock of_tests{.folded = findings.titled("Cracks and fragments of each test", series),
                          .pictures = place(std::move(maps))};
       append(of_tests.pictures, place(std::move(fragments)));
@@ -102,10 +99,8 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
       if (Table minerals = mineral_table(series); !minerals.rows.empty())
         {
           minerals.name += findings.ending_of_files(n);
-          PageBlock of_minerals;
-          of_minerals.folded = findings.titled("Cracks by mineral", series);
-          of_minerals.tables.push_back(std::move(minerals));
-          section.blocks.push_back(of_minerals);
+          section.blocks.push_back(
+            {.folded = findings.titled("Cracks by mineral", series), .tables = {std::move(minerals)}});
         }
       if (!of_tests.pictures.empty())
         section.blocks.push_back(of_tests);

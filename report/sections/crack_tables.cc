@@ -1,4 +1,4 @@
-#include "report/sections/test_tables.h"
+#include "report/sections/tables.h"
 
 #include "report/sections/text.h"
 #include "results/emission.h"
@@ -28,8 +28,7 @@ Table emission_table(const Series& series, const std::vector<EmissionCatalogue>&
   Table table{"emission",
               "Acoustic emission by the share of the peak deviator, all tests of a kind together",
               {"test", "deviator", "events", "breaks an event", "largest magnitude", "complete from", "b", "b-positive",
-               "tensile [%]", "shear [%]", "implosive [%]"},
-              {}};
+               "tensile [%]", "shear [%]", "implosive [%]"}};
   const auto add = [&](const std::string& title, const std::string& window, const std::vector<double>& magnitudes,
                        const double step, const std::size_t n_events, const double n_breaks) {
     const auto frequency = magnitude_frequency(magnitudes, step);
@@ -98,16 +97,16 @@ Table mineral_table(const Series& series)
     "minerals",
     "Cracks in minerals and at boundaries between mineral grains up to shares of the strain at the peak, all tests of a "
     "kind together",
-    {"test", "place", "cracks up to 50 %", "up to 80 %", "up to the peak", "of all at the peak [%]", "in shear [%]"},
-    {}};
-  struct Counts
+    {"test", "place", "cracks up to 50 %", "up to 80 %", "up to the peak", "of all at the peak [%]", "in shear [%]"}};
+  struct Place
   {
+    std::string name = {}; ///< in quartz; quartz | mica
     std::array<std::size_t, shares.size()> up_to{};
     std::size_t in_shear = 0;
   };
   for (const auto& group : groups_of(series))
     {
-      std::map<std::tuple<bool, std::uint32_t, std::uint32_t>, std::pair<std::string, Counts>> places;
+      std::map<std::tuple<bool, std::uint32_t, std::uint32_t>, Place> places;
       std::size_t all = 0;
       for (const auto* test : group.tests)
         if (const auto& peak = test->results.strain_at_peak.value)
@@ -115,20 +114,20 @@ Table mineral_table(const Series& series)
             if (const double share = test->record.kind.sign * crack.axial_strain / *peak;
                 crack.mineral_1 > 0 && share <= shares.back())
               {
-                auto& [place, counts] = places[{crack.on_boundary, crack.mineral_1, crack.mineral_2}];
-                place = place_of(crack, test->record.minerals);
+                auto& [name, up_to, in_shear] = places[{crack.on_boundary, crack.mineral_1, crack.mineral_2}];
+                name = place_of(crack, test->record.minerals);
                 for (std::size_t k = 0; k < shares.size(); ++k)
-                  counts.up_to[k] += share <= shares[k];
-                counts.in_shear += crack.kind == CrackKind::shear;
+                  up_to[k] += share <= shares[k];
+                in_shear += crack.kind == CrackKind::shear;
                 ++all;
               }
-      for (const auto& [key, of_place] : places)
+      for (const auto& [key, place] : places)
         {
-          const auto& [place, counts] = of_place;
-          const double n = double(counts.up_to.back());
-          table.rows.push_back({group.title(), place, fmt::format("{}", counts.up_to[0]),
-                                fmt::format("{}", counts.up_to[1]), fmt::format("{}", counts.up_to[2]),
-                                number(100.0 * n / double(all), 1), number(100.0 * double(counts.in_shear) / n, 1)});
+          const auto& [name, up_to, in_shear] = place;
+          const double n = double(up_to.back());
+          table.rows.push_back({group.title(), name, fmt::format("{}", up_to[0]), fmt::format("{}", up_to[1]),
+                                fmt::format("{}", up_to[2]), number(100.0 * n / double(all), 1),
+                                number(100.0 * double(in_shear) / n, 1)});
         }
     }
   return table;

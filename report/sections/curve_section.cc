@@ -2,8 +2,7 @@
 
 #include "base/append.h"
 #include "report/pictures/curves/curve_pictures.h"
-#include "report/pictures/figures.h"
-#include "report/sections/test_tables.h"
+#include "report/sections/tables.h"
 #include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
@@ -14,14 +13,12 @@ namespace feldspar
 {
 PageSection curve_section(const Findings& findings, PictureBook& book)
 {
-  PageSection section{"curves", "Curves", "Curves", {}};
+  PageSection section{"curves", "Curves", "Curves"};
   bool is_all_shown = true;
   PageBlock stresses;
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     if (findings.is_in_full(n))
-      append(stresses.pictures,
-             book.keep(pictures_of(confinement_figures,
-                                   SeriesAmong{findings.all, n, findings.envelopes[n], findings.reference})));
+      append(stresses.pictures, book.keep(pictures_of(confinement_figures, findings.among(n))));
   std::vector<PageBlock> further;
   for (auto& group : curve_pictures(findings.pictured))
     if (group.on_page)

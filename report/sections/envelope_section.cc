@@ -2,11 +2,10 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
-#include "report/pictures/figures.h"
 #include "report/sections/text.h"
-#include "results/fits/form_titles.h"
 #include "results/folder/result_folder.h"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,8 +28,7 @@ std::string with_symbols(std::string text)
 {
   for (const auto& [word, symbol] :
        {std::pair("sigma_3", "σ₃"), {"sigma_1", "σ₁"}, {"sigma_t", "σ_t"}, {"sigma_ci", "σ_ci"}, {"<=", "≤"}})
-    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;)
-      text.replace(at, std::string(word).size(), symbol);
+    boost::replace_all(text, word, symbol);
   return text;
 }
 
@@ -57,19 +55,16 @@ std::string text_of(const MohrCoulombFit& fit)
                      estimate(fit.friction_angle, std::numbers::pi / 180.0, 1), estimate(fit.cohesion, mega, 1));
 }
 
-/// Returns whether the interval of a parameter reaches 0, so that the points do not determine it.
-bool is_undetermined(const Estimate& parameter)
-{
-  return parameter.half_width.value && *parameter.half_width.value >= std::abs(parameter.value);
-}
-
-/// Verdict on a fit. Without freedom there is nothing to be judged, and parameters that the points leave open are not
-/// admissible.
+/// Verdict on a fit. Without freedom there is nothing to be judged, and parameters that the points leave open, because their
+/// intervals reach 0, are not admissible.
 std::string verdict_on(const FitQuality& quality, const std::vector<Estimate>& parameters, const std::string& otherwise)
 {
   if (quality.degrees_of_freedom == 0)
     return "no more points than parameters: not drawn";
-  return std::ranges::any_of(parameters, is_undetermined) ? "not determined: an interval reaches 0" : otherwise;
+  const bool any_open = std::ranges::any_of(parameters, [](const Estimate& one) {
+    return one.half_width.value && *one.half_width.value >= std::abs(one.value);
+  });
+  return any_open ? "not determined: an interval reaches 0" : otherwise;
 }
 
 Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
@@ -87,20 +82,22 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
       "Envelopes, Hoek–Brown and Mohr–Coulomb: parameters ± half of the 95 % interval, stresses in MPa; fitted strengths "
       "with their deviation from the measured ones, UCS {} and σ_t {}",
       stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
-    {"form", "admissible", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t"},
-    {}};
-  for (const auto& [of_form, with_tension_point, answer] : envelopes.rows())
+    {"form", "admissible", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t"}};
+  const auto add = [&](std::vector<std::string> row) {
+    row.resize(table.header.size(), none);
+    table.rows.push_back(std::move(row));
+  };
+  for (const auto& [of_form, with_tension_point, answer] : envelopes.hoek_brown)
     {
       const std::string form =
         title(of_form) + (with_tension_point ? fmt::format(", {} σ_t", *with_tension_point ? "with" : "without") : "");
       if (!answer.fit)
         {
-          table.rows.push_back(
-            {form, "no fit: " + with_symbols(answer.reason), none, none, none, none, none, none, none, none});
+          add({form, "no fit: " + with_symbols(answer.reason)});
           continue;
         }
       const HoekBrownFit& fit = *answer.fit;
-      table.rows.push_back(
+      add(
         {form, verdict_on(fit.quality, {fit.sigma_ci, fit.m, fit.s, fit.a}, fit.s.value > 1.0005 ? "✗ s > 1" : "✓"),
          estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2), estimate(fit.a, 1.0, 3),
          number(fit.quality.r_squared, 1.0, 4), number(fit.quality.root_mean_square / mega, 1),
@@ -109,21 +106,18 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
          number(-fit.tensile_cut_off.value / mega, 2) + beside(-fit.tensile_cut_off.value, measured.tensile_strength)});
     }
   if (const auto& fit = envelopes.mohr_coulomb.fit)
-    table.rows.push_back({"Mohr–Coulomb", verdict_on(fit->quality, {fit->friction_angle, fit->cohesion}, "✓"), none,
-                          none, none, none, number(fit->quality.r_squared, 1.0, 4),
-                          number(fit->quality.root_mean_square / mega, 1),
-                          estimate(fit->uniaxial_strength, mega, 1) +
-                            beside(fit->uniaxial_strength.value, measured.uniaxial_compressive_strength),
-                          none});
+    add({"Mohr–Coulomb", verdict_on(fit->quality, {fit->friction_angle, fit->cohesion}, "✓"), none, none, none, none,
+         number(fit->quality.r_squared, 1.0, 4), number(fit->quality.root_mean_square / mega, 1),
+         estimate(fit->uniaxial_strength, mega, 1) +
+           beside(fit->uniaxial_strength.value, measured.uniaxial_compressive_strength)});
   else
-    table.rows.push_back({"Mohr–Coulomb", "no fit: " + with_symbols(envelopes.mohr_coulomb.reason), none, none, none,
-                          none, none, none, none, none});
+    add({"Mohr–Coulomb", "no fit: " + with_symbols(envelopes.mohr_coulomb.reason)});
   return table;
 }
 
 Table residual_table(const StrengthEnvelopes& envelopes, const std::string& name)
 {
-  Table table{name, "Residuals: σ₁ of each point less that of the envelope [MPa]", {"σ₃ [MPa]", "σ₁ [MPa]"}, {}};
+  Table table{name, "Residuals: σ₁ of each point less that of the envelope [MPa]", {"σ₃ [MPa]", "σ₁ [MPa]"}};
   std::map<std::pair<double, double>, std::map<std::size_t, double>> residuals;
   std::size_t n_fits = 0;
   for (const auto& record : records(envelopes))
@@ -175,9 +169,8 @@ bool make_an_envelope(const StrengthData& data)
 PageBlock as_files(const Findings& findings, const std::size_t n, PictureBook& book)
 {
   const StrengthEnvelopes& envelopes = findings.envelopes[n];
-  const SeriesAmong among{findings.all, n, envelopes, findings.reference};
-  book.keep_as_files(pictures_of(strength_figures, among));
-  book.keep_as_files(pictures_of(residual_figures, among));
+  book.keep_as_files(pictures_of(strength_figures, findings.among(n)));
+  book.keep_as_files(pictures_of(residual_figures, findings.among(n)));
   return {.tables_as_files = {fit_table(envelopes, "envelopes" + findings.ending_of_files(n)),
                               residual_table(envelopes, "residuals" + findings.ending_of_files(n))}};
 }
@@ -194,7 +187,7 @@ PageBlock experiment_block(const ReferenceSource& experiment)
     }
   if (!experiment.true_triaxial.empty())
     {
-      Table table{"true_triaxial_experiment", "Strengths under three different stresses [MPa]", {"σ₃", "σ₂", "σ₁"}, {}};
+      Table table{"true_triaxial_experiment", "Strengths under three different stresses [MPa]", {"σ₃", "σ₂", "σ₁"}};
       for (const auto& [sigma_3, sigma_2, sigma_1] : experiment.true_triaxial)
         table.rows.push_back({number(sigma_3 / mega, 1), number(sigma_2 / mega, 1), number(sigma_1 / mega, 1)});
       block.tables.push_back(table);
@@ -221,10 +214,9 @@ PageBlock rock_mass_block(const Findings& findings)
     fmt::format("Rock mass of GSI {:g} and D {:g} (Hoek, Carranza-Torres and Corkum 2002), from the intact form "
                 "without σ_t; σ_c = σ_ci sᵃ, σ_t = s σ_ci / m_b; stresses in MPa",
                 strength_index, disturbance),
-    {"intact rock", "σ_ci", "m_i", "m_b", "s", "a", "σ_c", "σ_t"},
-    {}};
+    {"intact rock", "σ_ci", "m_i", "m_b", "s", "a", "σ_c", "σ_t"}};
   const auto add = [&](const std::string& label, const StrengthEnvelopes& envelopes) {
-    for (const auto& [form, with_tension_point, answer] : envelopes.rows())
+    for (const auto& [form, with_tension_point, answer] : envelopes.hoek_brown)
       if (form == HoekBrownForm::intact && !*with_tension_point)
         {
           if (!answer.fit)
@@ -252,7 +244,7 @@ PageBlock rock_mass_block(const Findings& findings)
 
 PageSection envelope_section(const Findings& findings, PictureBook& book)
 {
-  PageSection section{"envelope", "Envelope", "Strength envelope", {}};
+  PageSection section{"envelope", "Envelope", "Strength envelope"};
   const std::vector<StrengthEnvelopes> pictured_envelopes = findings.pictured_envelopes();
   const bool any_envelope =
     findings.reference ||
@@ -295,7 +287,6 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       if (n == 0 && findings.reference)
         if (const std::string printed = remark_on_printed(findings.reference->model); !printed.empty())
           block.paragraphs.push_back(printed);
-      const SeriesAmong among{findings.all, n, envelopes, findings.reference};
       if (!findings.has_several())
         block.pictures = book.keep(of_all);
       section.blocks.push_back(block);
@@ -304,7 +295,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
         .paragraphs = {"Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
                        "has more points than parameters; q over p shows the part under compression."},
         .tables = {fit_table(envelopes, "envelopes" + findings.ending_of_files(n))},
-        .pictures = book.keep(pictures_of(strength_figures, among))};
+        .pictures = book.keep(pictures_of(strength_figures, findings.among(n)))};
       if (const auto& fit = envelopes.mohr_coulomb.fit)
         figures.paragraphs.push_back(text_of(*fit));
       figures.paragraphs.push_back(
@@ -312,7 +303,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
         "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0. “Regression” is Hoek's, a straight line "
         "through (σ₁ − σ₃)² over σ₃, by which most printed m_i were found.");
       section.blocks.push_back(figures);
-      if (auto residuals = book.keep(pictures_of(residual_figures, among)); !residuals.empty())
+      if (auto residuals = book.keep(pictures_of(residual_figures, findings.among(n))); !residuals.empty())
         section.blocks.push_back({.folded = findings.titled("Residual of every point", findings.all[n]),
                                   .tables = {residual_table(envelopes, "residuals" + findings.ending_of_files(n))},
                                   .pictures = std::move(residuals)});

@@ -1,11 +1,8 @@
 #pragma once
 
 #include "report/page/page.h"
+#include "report/pictures/figures.h"
 #include "report/sections/comparison.h"
-#include "results/emission.h"
-#include "results/fits/strength_envelopes.h"
-#include "results/folder/reference.h"
-#include "results/runs/series.h"
 
 #include <optional>
 #include <string>
@@ -41,6 +38,8 @@ struct Findings
   {
     return n < most_series_in_full || all[n].kind == SeriesKind::laboratory_curve;
   }
+
+  SeriesAmong among(std::size_t n) const { return {all, n, envelopes[n], reference}; }
 
   /// Envelopes of the pictured series.
   std::vector<StrengthEnvelopes> pictured_envelopes() const;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
@@ -12,9 +11,26 @@ namespace feldspar
 {
 namespace
 {
-constexpr input_entries::EntryName labels[] = {input_entries::report_title, input_entries::report_client,
-                                               input_entries::report_specimen, input_entries::report_author,
-                                               input_entries::report_date};
+/// Texts of the head of a report beside its title, with their words there.
+constexpr std::pair<const char*, input_entries::EntryName> labels[] = {{"Client", input_entries::report_client},
+                                                                       {"Specimen", input_entries::report_specimen},
+                                                                       {"Author", input_entries::report_author},
+                                                                       {"Date", input_entries::report_date}};
+
+/// Entries of the input but for texts of the head of a report that are not there.
+std::vector<InputEntry> told_entries(const Provenance& made_by)
+{
+  const auto is = [](const InputEntry& one, const input_entries::EntryName& name) {
+    return one.section == name.section && one.entry == name.entry;
+  };
+  std::vector<InputEntry> told = made_by.input;
+  std::erase_if(told, [&](const InputEntry& one) {
+    return one.value == "none" &&
+           (is(one, input_entries::report_title) ||
+            std::ranges::any_of(labels, [&](const auto& label) { return is(one, label.second); }));
+  });
+  return told;
+}
 } // namespace
 
 std::string sentence_of(const Provenance& made_by)
@@ -31,10 +47,7 @@ std::string sentence_of(const Provenance& made_by)
 std::string labels_of(const Provenance& made_by)
 {
   std::string line;
-  for (const auto& [word, entry] : {std::pair("Client", input_entries::report_client),
-                                    {"Specimen", input_entries::report_specimen},
-                                    {"Author", input_entries::report_author},
-                                    {"Date", input_entries::report_date}})
+  for (const auto& [word, entry] : labels)
     if (const std::string label = made_by.label_of(entry); !label.empty())
       line += fmt::format("{}{}: {}", line.empty() ? "" : " · ", word, label);
   return line;
@@ -51,28 +64,9 @@ std::string paper_head_of(const Provenance& made_by, const std::string& rock)
   return line;
 }
 
-namespace
-{
-/// Entries of the input but for texts of the head of a report that are not there.
-std::vector<InputEntry> told_entries(const Provenance& made_by)
-{
-  std::vector<InputEntry> told;
-  for (const auto& entry : made_by.input)
-    {
-      const bool is_label =
-        std::any_of(std::begin(labels), std::end(labels), [&](const input_entries::EntryName& label) {
-          return entry.section == label.section && entry.entry == label.entry;
-        });
-      if (!is_label || entry.value != "none")
-        told.push_back(entry);
-    }
-  return told;
-}
-} // namespace
-
 Table input_table(const Provenance& made_by, const std::string& name)
 {
-  Table table{name, "Input as it was understood", {"section", "entry", "value"}, {}};
+  Table table{name, "Input as it was understood", {"section", "entry", "value"}};
   for (const auto& entry : told_entries(made_by))
     table.rows.push_back({entry.section, entry.entry, entry.value});
   return table;
@@ -84,10 +78,7 @@ Table input_table(const Provenance& made_by, const std::string& name, const Prov
   std::map<Place, std::string> of_first;
   for (const auto& entry : told_entries(first))
     of_first[{entry.section, entry.entry}] = entry.value;
-  Table table{name,
-              fmt::format("Input where it differs from that of {}", label),
-              {"section", "entry", "value", label},
-              {}};
+  Table table{name, fmt::format("Input where it differs from that of {}", label), {"section", "entry", "value", label}};
   for (const auto& entry : told_entries(made_by))
     {
       const auto there = of_first.extract(Place{entry.section, entry.entry});

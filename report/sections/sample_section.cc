@@ -3,7 +3,6 @@
 
 #include "base/append.h"
 #include "base/contains.h"
-#include "report/pictures/figures.h"
 #include "report/pictures/rves.h"
 #include "report/sections/text.h"
 #include "results/runs/test_groups.h"
@@ -29,8 +28,7 @@ std::vector<Table> rve_tables(const FinishedTest& test, const std::string& title
     fmt::format("{}, seed {}: the representative volumes (RVEs) that are drawn; {} FOLDER --extract CELL:POINT "
                 "writes these or any other for ParaView and for {}",
                 title, test.record.seed, input_entries::multiscale, input_entries::rve),
-    {"RVE", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
-    {}};
+    {"RVE", "where", "cell:point", "broken segments", "of all [%]", "in shear"}};
   for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)
     {
       const PointRve& rve = test.appearance.rves[k];
@@ -56,7 +54,7 @@ const FinishedTest* with_fields(const TestGroup& group)
 
 PageSection sample_section(const Findings& findings, PictureBook& book)
 {
-  PageSection section{"sample", "Sample", "The sample at its end", {}};
+  PageSection section{"sample", "Sample", "The sample at its end"};
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       const Series& series = findings.all[n];

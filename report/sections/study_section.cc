@@ -1,7 +1,6 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
-#include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
 #include "report/pictures/study_lines.h"
 #include "report/sections/text.h"
@@ -23,19 +22,15 @@ struct StudiedEntry
   std::vector<StudyEffect> effects;
 
   /// Name without the section, which the table's heading has.
-  std::string name() const { return over.varied.entry.substr(over.varied.entry.find('/') + 1); }
+  std::string name() const { return over.entry.substr(over.entry.find('/') + 1); }
   std::string value(const double number) const
   {
-    return fmt::format("{:g}{}{}", number, over.varied.unit.empty() ? "" : " ", over.varied.unit);
+    return fmt::format("{:g}{}{}", number, over.unit.empty() ? "" : " ", over.unit);
   }
-  std::string range() const
-  {
-    return fmt::format("{:g} to {}", *over.varied.values.begin(), value(*over.varied.values.rbegin()));
-  }
+  std::string range() const { return fmt::format("{:g} to {}", *over.values.begin(), value(*over.values.rbegin())); }
   const StudyEffect* effect_on(const StudyEffect& same) const
   {
-    const auto found = std::ranges::find_if(
-      effects, [&](const StudyEffect& one) { return one.result.name == same.result.name && one.test == same.test; });
+    const auto found = std::ranges::find_if(effects, [&](const StudyEffect& one) { return one.is_on_same(same); });
     return found == effects.end() ? nullptr : &*found;
   }
 };
@@ -66,8 +61,7 @@ std::string as_cell(const StudiedEntry& entry, const StudyEffect& effect)
   std::string cell = fmt::format("{} to {}", significant(first, 3), significant(last, 3));
   if (first != 0.0)
     cell += fmt::format(" ({})", text::signed_percent(effect.change()));
-  const auto [least, most] =
-    std::ranges::minmax_element(means, [](const auto& one, const auto& other) { return one.second < other.second; });
+  const auto [least, most] = effect.extremes();
   for (const auto& extreme : {least, most})
     if (const double beyond =
           extreme == least ? std::min(first, last) - least->second : most->second - std::max(first, last);
@@ -82,17 +76,14 @@ Table effect_table(const std::vector<StudiedEntry>& entries)
     "effects",
     "Effect of each entry from its lowest to its highest value: means over the seeds and over the values of the "
     "other entries",
-    {"result"},
-    {}};
+    {"result"}};
   std::vector<const StudyEffect*> rows;
   for (const StudiedEntry& entry : entries)
     {
       if (!entry.effects.empty())
-        table.header.push_back(fmt::format("{}, {}", entry.over.varied.entry, entry.range()));
+        table.header.push_back(fmt::format("{}, {}", entry.over.entry, entry.range()));
       for (const StudyEffect& effect : entry.effects)
-        if (std::ranges::none_of(rows, [&](const StudyEffect* one) {
-              return one->result.name == effect.result.name && one->test == effect.test;
-            }))
+        if (std::ranges::none_of(rows, [&](const StudyEffect* one) { return one->is_on_same(effect); }))
           rows.push_back(&effect);
     }
   for (const StudyEffect* const row : rows)
@@ -118,7 +109,7 @@ std::string headline_of(const std::vector<StudiedEntry>& entries)
   for (const StudiedEntry& entry : entries)
     if (const StudyEffect* const effect = entry.effect_on(first))
       {
-        const std::string along = fmt::format("{}", entry.over.along.empty() ? "" : " and what goes along with it");
+        const std::string along = entry.over.along.empty() ? "" : " and what goes along with it";
         words += words.empty() ? "" : "; ";
         words += effect->reach() < least_change ? fmt::format("{}{} has no effect", entry.name(), along)
                                                 : fmt::format("with {}{} from {} it goes from {}", entry.name(), along,
@@ -141,7 +132,7 @@ void move_first(std::vector<Picture>& from, const std::string& beginning, std::v
 
 PageSection study_section(const Findings& findings, PictureBook& book)
 {
-  PageSection section{"study", "Study", "Results over what was varied", {}};
+  PageSection section{"study", "Study", "Results over what was varied"};
   PageBlock block;
   for (const std::string& sentence : findings.repeats)
     block.warnings.push_back(sentence + ".");
@@ -158,7 +149,7 @@ PageSection study_section(const Findings& findings, PictureBook& book)
   move_first(pictures, "study_map_", lead);
   for (const StudiedEntry& entry : entries)
     if (lead.size() < 2)
-      move_first(pictures, fmt::format("study_{}_", plot::file_name(entry.over.varied.entry)), lead);
+      move_first(pictures, fmt::format("study_{}_", plot::file_name(entry.over.entry)), lead);
   if (lead.size() < 2)
     move_first(pictures, "study_", lead);
   block.lead = book.keep(std::move(lead));

@@ -29,11 +29,6 @@ struct StudyColumn
   }
 };
 
-std::string heading(const ComparisonRow& row)
-{
-  return row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit);
-}
-
 std::vector<StudyColumn> columns(const std::vector<std::vector<ComparisonRow>>& of_variants)
 {
   std::vector<StudyColumn> all;
@@ -41,7 +36,7 @@ std::vector<StudyColumn> columns(const std::vector<std::vector<ComparisonRow>>& 
     for (const ComparisonRow& row : of_variants[v])
       if (row.ours)
         {
-          const std::string name = heading(row);
+          const std::string name = with_unit(row.property, row.unit);
           auto column = std::ranges::find(all, name, &StudyColumn::heading);
           if (column == all.end())
             column = all.insert(all.end(), {name, std::vector<std::string>(of_variants.size(), "-"),

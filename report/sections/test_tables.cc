@@ -1,9 +1,8 @@
-#include "report/sections/test_tables.h"
+#include "report/sections/tables.h"
 
 #include "base/append.h"
 #include "report/sections/text.h"
 #include "results/runs/bodies.h"
-#include "results/runs/quantity_values.h"
 #include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
@@ -12,6 +11,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace feldspar
@@ -38,8 +39,7 @@ Table strength_table(const Findings& findings)
               any_has_flaws(findings.all)
                 ? "Strengths of every kind of test, of bodies with flaws highest nominal stresses [MPa]"
                 : "Strengths of every kind of test [MPa]",
-              {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean"},
-              {}};
+              {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean"}};
   std::vector<const TestQuantity*> further{&quantity_of(&TestResults::shear_share_at_peak),
                                            &quantity_of(&TestResults::residual_deviator_ratio)};
   if (has_column(quantity_of(&TestResults::fracture_toughness), findings))
@@ -51,18 +51,15 @@ Table strength_table(const Findings& findings)
   for (const auto& series : findings.all)
     for (const auto& group : groups_of(series))
       {
-        const auto over_seeds = [&](Figure TestResults::*figure, const ShownIn& shown) {
-          const auto found = statistics(values(group, figure));
-          return found ? mean_and_deviation(*found, shown.scale, shown.decimals) : none;
-        };
         const auto strength = statistics(values(group, &TestResults::peak_stress));
         const ShownIn shown = display::megapascals(group.kind.strength_decimals);
         table.rows.push_back({group.title() + (any_has_flaws(series.tests) ? ", body with flaws" : ""), series.label,
                               fmt::format("{}", strength ? strength->n : 0),
-                              over_seeds(&TestResults::peak_stress, shown),
-                              strength ? interval(*strength, shown.scale, shown.decimals) : none});
+                              mean_and_deviation(strength, shown.scale, shown.decimals),
+                              interval(strength, shown.scale, shown.decimals)});
         for (const TestQuantity* const quantity : further)
-          table.rows.back().push_back(over_seeds(quantity->figure(), quantity->shown));
+          table.rows.back().push_back(mean_and_deviation(statistics(values(group, quantity->figure())),
+                                                         quantity->shown.scale, quantity->shown.decimals));
       }
   return table;
 }
@@ -73,38 +70,30 @@ Table test_table(const Findings& findings)
               "Every test, SI; the file has every figure of summary.json",
               {"test", "series", "seed"},
               {},
-              DataFrame{{"test", "series", "seed"}, {}}};
-  std::vector<const TestQuantity*> wanted;
+              DataFrame{{"test", "series", "seed"}}};
+  std::set<std::string_view> wanted;
   for (const TestQuantity& quantity : test_quantities)
     {
       table.file->header.emplace_back(quantity.name);
-      if (has_column(quantity, findings))
-        wanted.push_back(&quantity);
+      if (!has_column(quantity, findings))
+        continue;
+      wanted.insert(quantity.name);
+      table.header.emplace_back(quantity.name);
     }
-  for (const TestQuantity* const quantity : wanted)
-    table.header.emplace_back(quantity->name);
   for (const auto& series : findings.all)
     for (const auto& test : series.tests)
       {
         const bool is_measured = series.kind == SeriesKind::laboratory_curve;
         const std::string seed = is_measured ? "" : fmt::format("{}", test.record.seed);
-        std::vector<std::string> row{test.name, series.label, is_measured ? none : seed};
-        std::vector<std::string> all{test.name, series.label, seed};
-        const auto figure_of = [&](const TestQuantity& quantity) {
-          return is_measured && quantity.is_of_model() ? Figure() : value_of(quantity, test);
-        };
+        auto& row = table.rows.emplace_back(std::vector{test.name, series.label, is_measured ? none : seed});
+        auto& all = table.file->rows.emplace_back(std::vector{test.name, series.label, seed});
         for (const TestQuantity& quantity : test_quantities)
           {
-            const Figure figure = figure_of(quantity);
+            const Figure figure = is_measured && quantity.is_of_model() ? Figure() : value_of(quantity, test);
             all.push_back(figure.value && std::isfinite(*figure.value) ? fmt::format("{:.10g}", *figure.value) : "");
+            if (wanted.contains(quantity.name))
+              row.push_back(figure.value ? fmt::format("{:.4g}", *figure.value) : none);
           }
-        for (const TestQuantity* const quantity : wanted)
-          {
-            const Figure figure = figure_of(*quantity);
-            row.push_back(figure.value ? fmt::format("{:.4g}", *figure.value) : none);
-          }
-        table.rows.push_back(std::move(row));
-        table.file->rows.push_back(std::move(all));
       }
   return table;
 }
@@ -113,8 +102,7 @@ Table stage_table(const std::vector<FinishedTest>& tests)
 {
   Table table{"stages",
               "Stages of the loading table: figures at the end of each; slope of axial stress over axial strain",
-              {"stage", "confinement [MPa]", "strain [1e-3]", "stress [MPa]", "slope [GPa]", "cracks"},
-              {}};
+              {"stage", "confinement [MPa]", "strain [1e-3]", "stress [MPa]", "slope [GPa]", "cracks"}};
   std::set<std::uint64_t> seeds;
   for (const auto& test : tests)
     seeds.insert(test.record.seed);
@@ -144,8 +132,7 @@ Table specimen_table(const Series& series)
                             : "Representative volumes at the points, the first of each seed"),
               {"seed", "grains", "joints", "coordination number", "in the core", "gap ratio", "porosity",
                "mean overlap / radius", "width / mean diameter", "radii over those of the input", "tests made", "steps",
-               "sum of the times of the tests [s]"},
-              {}};
+               "sum of the times of the tests [s]"}};
   std::map<std::uint64_t, std::vector<const FinishedTest*>> made;
   for (const auto& test : series.tests)
     if (test.record.failure.empty())

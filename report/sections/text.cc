@@ -1,6 +1,7 @@
 #include "report/sections/text.h"
 
 #include "base/text.h"
+#include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
 
@@ -27,13 +28,9 @@ std::string significant(const double value, const int figures)
   return number(parse_number(rounded), std::max(0, figures - 1 - exponent));
 }
 
-std::string sentence(std::string words)
+std::string sentence(const std::string& words)
 {
-  if (words.empty())
-    return words;
-  if ('a' <= words.front() && words.front() <= 'z')
-    words.front() = char(words.front() - 'a' + 'A');
-  return words.ends_with('.') ? words : words + '.';
+  return plot::with_capital(words) + (words.empty() || words.ends_with('.') ? "" : ".");
 }
 
 std::string number(const Figure& figure, const double unit, const int decimals)
@@ -56,24 +53,27 @@ std::string two_values(const Statistics& over_seeds, const double unit, const in
                      number((over_seeds.mean + half_way) / unit, decimals));
 }
 
-std::string mean_and_deviation(const Statistics& over_seeds, const double unit, const int decimals)
+std::string mean_and_deviation(const std::optional<Statistics>& over_seeds, const double unit, const int decimals)
 {
-  if (has_two_values(over_seeds))
-    return "n = 2: " + two_values(over_seeds, unit, decimals);
-  std::string text = number(over_seeds.mean / unit, decimals);
-  if (over_seeds.standard_deviation)
-    text += fmt::format(" ± {}", number(*over_seeds.standard_deviation / unit, decimals));
+  if (!over_seeds)
+    return none;
+  if (has_two_values(*over_seeds))
+    return "n = 2: " + two_values(*over_seeds, unit, decimals);
+  std::string text = number(over_seeds->mean / unit, decimals);
+  if (over_seeds->standard_deviation)
+    text += fmt::format(" ± {}", number(*over_seeds->standard_deviation / unit, decimals));
   return text;
 }
 
-std::string interval(const Statistics& over_seeds, const double unit, const int decimals)
+std::string interval(const std::optional<Statistics>& over_seeds, const double unit, const int decimals)
 {
   // An interval from two values is thirteen standard deviations wide.
   constexpr std::size_t fewest = 3;
-  if (over_seeds.n < fewest || !over_seeds.confidence_95 || *over_seeds.confidence_95 >= std::abs(over_seeds.mean))
+  if (!over_seeds || over_seeds->n < fewest || !over_seeds->confidence_95 ||
+      *over_seeds->confidence_95 >= std::abs(over_seeds->mean))
     return none;
-  return fmt::format("{} to {}", number((over_seeds.mean - *over_seeds.confidence_95) / unit, decimals),
-                     number((over_seeds.mean + *over_seeds.confidence_95) / unit, decimals));
+  return fmt::format("{} to {}", number((over_seeds->mean - *over_seeds->confidence_95) / unit, decimals),
+                     number((over_seeds->mean + *over_seeds->confidence_95) / unit, decimals));
 }
 
 std::string signed_percent(const double share)

@@ -3,7 +3,7 @@
 #include "base/append.h"
 #include "base/contains.h"
 #include "report/sections/provenance.h"
-#include "report/sections/test_tables.h"
+#include "report/sections/tables.h"
 #include "report/sections/text.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/trust.h"
@@ -22,7 +22,7 @@ namespace
 {
 Table check_table(const Series& series, const std::string& name)
 {
-  Table table{name, "Checks over all tests", {"measure", "bound", "mean", "worst", "within"}, {}};
+  Table table{name, "Checks over all tests", {"measure", "bound", "mean", "worst", "within"}};
   for (const auto& check : trust_checks(series))
     table.rows.push_back({std::string(check.measure.title), check.measure.bound_text(), check.measure.text(check.mean),
                           fmt::format("{} ({})", check.measure.text(check.worst), check.worst_test),
@@ -68,7 +68,7 @@ std::vector<PageBlock> evidence(const Findings& findings, const std::size_t n)
 /// The worst value of every measure, a row a series.
 Table checks_of_many(const Findings& findings)
 {
-  Table table{"checks", "Checks of every series: the worst value over its tests, ✗ out of the bound", {"series"}, {}};
+  Table table{"checks", "Checks of every series: the worst value over its tests, ✗ out of the bound", {"series"}};
   std::vector<std::string_view> measures;
   for (const auto& series : findings.all)
     for (const auto& check : trust_checks(series))
@@ -100,8 +100,7 @@ std::vector<PageBlock> evidence_of_many(const Findings& findings)
   const Series& first = findings.all.front();
   Table differences{"inputs",
                     fmt::format("Input where it differs from that of {}", first.label),
-                    {"series", "section", "entry", "value", first.label},
-                    {}};
+                    {"series", "section", "entry", "value", first.label}};
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       for (PageBlock& own : evidence(findings, n))
@@ -126,7 +125,7 @@ std::vector<PageBlock> evidence_of_many(const Findings& findings)
 
 PageSection trust_section(const Findings& findings)
 {
-  PageSection section{"trust", "Trust", "How far to trust it", {}};
+  PageSection section{"trust", "Trust", "How far to trust it"};
   if (findings.has_many())
     section.blocks = evidence_of_many(findings);
   else

@@ -1,12 +1,12 @@
 #include "report/sections/verdict.h"
 
 #include "base/mapped.h"
+#include "report/pictures/plot_style.h"
 #include "report/sections/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 namespace feldspar
@@ -138,9 +138,7 @@ std::string deviation_sentence(const Rows& rows)
 
 std::string subject_of(const std::vector<std::string>& properties, const char* const singular, const char* const plural)
 {
-  std::string text = clause_of(properties, singular, plural);
-  text.front() = char(std::toupper(static_cast<unsigned char>(text.front())));
-  return text;
+  return plot::with_capital(clause_of(properties, singular, plural));
 }
 
 std::string verdict_sentence(const std::vector<ComparisonRow>& rows)

@@ -2,7 +2,7 @@
 #include "report/sections/sections.h"
 
 #include "report/pictures/plot_style.h"
-#include "report/sections/comparison_table.h"
+#include "report/sections/tables.h"
 #include "report/sections/text.h"
 #include "report/sections/verdict.h"
 #include "results/folder/result_folder.h"
@@ -42,8 +42,7 @@ std::vector<PageBlock> verdict_of_many(const Findings& findings)
     "Every series: tests made and wanted, properties in and out of the range of experiments or not decided, measures out of "
     "their bounds",
     {"series", "made", "of tests", "properties in range", "properties out of range", "properties not decided",
-     "measures out of bounds", "could not be read"},
-    {}};
+     "measures out of bounds", "could not be read"}};
   std::size_t n_compared = 0, n_in_every_range = 0, n_not_decided = 0, n_warned = 0, n_models = 0;
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
@@ -98,10 +97,8 @@ std::vector<PageBlock> verdict_of_many(const Findings& findings)
 
 PageSection verdict_section(const Findings& findings)
 {
-  PageSection section{"verdict",
-                      "Verdict",
-                      findings.reference ? "Does the model match the rock?" : "Results and how far to trust them",
-                      {}};
+  PageSection section{"verdict", "Verdict",
+                      findings.reference ? "Does the model match the rock?" : "Results and how far to trust them"};
   if (findings.has_many())
     section.blocks = verdict_of_many(findings);
   // A problem that keeps all models from being compared is said once: for one model in its headline, for several below
@@ -153,13 +150,11 @@ PageSection verdict_section(const Findings& findings)
     section.blocks.push_back({.subheading = "All models", .warnings = shared.of_all});
   PageBlock remarks, table;
   if (!findings.has_many())
-    table.folded = "Every property of model and rock";
+    table = {.folded = "Every property of model and rock", .tables = {comparison_table(findings)}};
   if (is_problem_below && !findings.has_many())
     remarks.warnings.push_back(findings.reference_problem + ".");
   for (const std::string& remark : gap_remarks(findings.all))
     remarks.warnings.push_back(remark + ".");
-  if (!findings.has_many())
-    table.tables.push_back(comparison_table(findings));
   if (findings.reference && findings.calibration)
     table.paragraphs.push_back(fmt::format(
       "Of the reference, Young's modulus is taken to be the {} one and Poisson's ratio the {} one, as in the calibration.",

@@ -6,8 +6,6 @@ namespace feldspar
 {
 namespace
 {
-std::uint64_t n_cracks(const CurveSample& row) { return row.n_tension_cracks + row.n_shear_cracks; }
-
 constexpr const char* no_crack = "no crack before the peak";
 
 /// Row at which the volume is smallest, if it grows again before the peak.
@@ -51,28 +49,34 @@ Figure initiation_before_damage(const RisingBranch& branch, const Value& value, 
   return damage ? stress_before_growth(branch, *damage, value, never) : unknown("needs the crack damage stress");
 }
 
+/// Number of the cracks of some kind up to the peak.
+template <typename Is>
+double n_up_to_peak(const RisingBranch& branch, const Is& is)
+{
+  return double(std::ranges::count_if(
+    branch.record.cracks, [&](const Crack& crack) { return crack.step <= branch.at_peak().step && is(crack); }));
+}
+
 /// Number of cracks on grain boundaries, in a grain-based model.
 double n_smooth_cracks(const RisingBranch& branch, const CrackKind kind)
 {
-  const auto& cracks = branch.record.cracks;
-  return double(std::ranges::count_if(cracks, [&](const Crack& crack) {
-    return crack.on_smooth_joint && crack.kind == kind && crack.step <= branch.at_peak().step;
-  }));
+  return n_up_to_peak(branch, [=](const Crack& crack) { return crack.on_smooth_joint && crack.kind == kind; });
 }
 
 Figure share_of_cracks(const RisingBranch& branch, const double n)
 {
-  return n_cracks(branch.at_peak()) > 0 ? known(n / double(n_cracks(branch.at_peak()))) : unknown(no_crack);
+  const std::uint64_t all = branch.at_peak().n_cracks();
+  return all > 0 ? known(n / double(all)) : unknown(no_crack);
 }
 } // namespace
 
 std::optional<std::size_t> crack_initiation_row(const TestRecord& record, const std::size_t peak)
 {
-  const std::uint64_t at_peak = n_cracks(record.curve[peak]);
+  const std::uint64_t at_peak = record.curve[peak].n_cracks();
   if (at_peak == 0)
     return std::nullopt;
   std::size_t row = 0;
-  while (double(n_cracks(record.curve[row])) < 0.01 * double(at_peak))
+  while (double(record.curve[row].n_cracks()) < 0.01 * double(at_peak))
     ++row;
   return row;
 }
@@ -97,7 +101,7 @@ Figure crack_initiation_stress_lateral(const RisingBranch& branch)
 Figure crack_initiation_stress_emission(const RisingBranch& branch)
 {
   return initiation_before_damage(
-    branch, [](const CurveSample& row) { return double(n_cracks(row)); }, "cracks never lag behind a straight line");
+    branch, [](const CurveSample& row) { return double(row.n_cracks()); }, "cracks never lag behind a straight line");
 }
 
 /// The same up to the peak by the energy that the hits released.
@@ -153,10 +157,7 @@ Figure smooth_tension_share_at_peak(const RisingBranch& branch)
 
 Figure boundary_crack_share_at_peak(const RisingBranch& branch)
 {
-  const auto& cracks = branch.record.cracks;
-  return share_of_cracks(branch, double(std::count_if(cracks.begin(), cracks.end(), [&](const Crack& crack) {
-                           return crack.on_boundary && crack.step <= branch.at_peak().step;
-                         })));
+  return share_of_cracks(branch, n_up_to_peak(branch, [](const Crack& crack) { return crack.on_boundary; }));
 }
 
 /// Share of the first cracks of a disc near its pads, which tells where a disc that is to be split breaks first.

@@ -14,7 +14,7 @@ std::optional<RisingBranch> part_before_cracks(const TestRecord& record)
   PeakWatch watch(record.kind, record.confining_pressure, record.peak_demands);
   for (const CurveSample& row : record.curve)
     {
-      if (row.n_tension_cracks + row.n_shear_cracks > 0)
+      if (row.n_cracks() > 0)
         break;
       watch.add(row);
     }

@@ -1,5 +1,8 @@
+#include "base/mapped.h"
 #include "laboratory/named_entries.h"
 #include "results/evaluation/rising_branch.h"
+
+#include <numeric>
 
 /// Measures of how near the test was to being quasi-static, and how well the confinement was held.
 namespace feldspar::evaluation
@@ -16,18 +19,31 @@ const char* objection_to_servo(const TestRecord& record)
   return record.has_servo && record.confining_pressure > 0.0 ? nullptr : "the test has no servo";
 }
 
-double servo_error(const TestRecord& record, const CurveSample& row)
+/// A figure of the servo's errors in the rows up to the peak.
+template <typename Of>
+Figure of_servo_errors(const RisingBranch& branch, const Of& of)
 {
-  return std::abs(-row.lateral_stress / record.confining_pressure - 1.0);
+  if (const char* const reason = objection_to_servo(branch.record))
+    return unknown(reason);
+  return known(of(mapped<double>(branch.rows, [&](const CurveSample& row) {
+    return std::abs(-row.lateral_stress / branch.record.confining_pressure - 1.0);
+  })));
+}
+
+/// The largest value, not below 0, from 5 % of the peak to the peak.
+template <typename Value>
+double largest_loaded(const RisingBranch& branch, const Value& value)
+{
+  double largest = 0.0;
+  branch.loaded_rows([&](const CurveSample& row) { largest = std::max(largest, value(row)); });
+  return largest;
 }
 } // namespace
 
 Figure kinetic_to_strain_energy(const RisingBranch& branch)
 {
-  double largest = 0.0;
-  branch.loaded_rows(
-    [&](const CurveSample& row) { largest = std::max(largest, row.energies.kinetic / row.energies.strain); });
-  return known(largest);
+  return known(
+    largest_loaded(branch, [](const CurveSample& row) { return row.energies.kinetic / row.energies.strain; }));
 }
 
 Figure unbalanced_force_ratio(const RisingBranch& branch)
@@ -45,11 +61,8 @@ Figure unbalanced_force_ratio(const RisingBranch& branch)
 
 Figure end_stress_difference(const RisingBranch& branch)
 {
-  double largest = 0.0;
-  branch.loaded_rows([&](const CurveSample& row) {
-    largest = std::max(largest, std::abs(row.end_stress_difference) / branch.peak_deviator);
-  });
-  return known(largest);
+  return known(largest_loaded(
+    branch, [&](const CurveSample& row) { return std::abs(row.end_stress_difference) / branch.peak_deviator; }));
 }
 
 Figure p_wave_transits_to_peak(const RisingBranch& branch)
@@ -72,30 +85,25 @@ Figure p_wave_transits_to_peak(const RisingBranch& branch)
 
 Figure stress_rate_error(const RisingBranch& branch)
 {
-  double largest = 0.0;
-  branch.loaded_rows([&](const CurveSample& row) {
-    largest = std::max(largest, std::abs(branch.deviator(row) - branch.record.stress_rate * row.time));
-  });
-  return known(largest / branch.peak_deviator);
+  return known(largest_loaded(branch,
+                              [&](const CurveSample& row) {
+                                return std::abs(branch.deviator(row) - branch.record.stress_rate * row.time);
+                              }) /
+               branch.peak_deviator);
 }
 
 Figure servo_error(const RisingBranch& branch)
 {
-  if (const char* const reason = objection_to_servo(branch.record))
-    return unknown(reason);
-  double sum = 0.0;
-  for (const CurveSample& row : branch.rows)
-    sum += servo_error(branch.record, row);
-  return known(sum / double(branch.rows.size()));
+  return of_servo_errors(branch, [](const std::vector<double>& errors) {
+    return std::accumulate(errors.begin(), errors.end(), 0.0) / double(errors.size());
+  });
 }
 
 Figure servo_error_largest(const RisingBranch& branch)
 {
-  if (const char* const reason = objection_to_servo(branch.record))
-    return unknown(reason);
-  double largest = 0.0;
-  for (const CurveSample& row : branch.rows)
-    largest = std::max(largest, servo_error(branch.record, row));
-  return known(largest);
+  return of_servo_errors(branch, [](const std::vector<double>& errors) {
+    return std::accumulate(errors.begin(), errors.end(), 0.0,
+                           [](const double largest, const double error) { return std::max(largest, error); });
+  });
 }
 } // namespace feldspar::evaluation

@@ -39,7 +39,7 @@ std::vector<StageResults> evaluate_stages(const TestRecord& record)
       results.lateral_stress_at_end =
         stage.confining_pressure > 0.0 ? Figure{-last.lateral_stress, ""} : Figure{std::nullopt, "no side walls"};
       results.slope = slope_of(record, stage);
-      results.n_cracks = last.n_tension_cracks + last.n_shear_cracks - first.n_tension_cracks - first.n_shear_cracks;
+      results.n_cracks = last.n_cracks() - first.n_cracks();
       results.duration = last.time - first.time;
       all.push_back(results);
     }

@@ -6,7 +6,7 @@
 
 namespace feldspar
 {
-ShearLineResult fit_shear_line(const std::vector<const FinishedTest*>& tests)
+FitOrReason<ShearLine> fit_shear_line(const std::vector<const FinishedTest*>& tests)
 {
   std::vector<double> normal;
   std::vector<double> shear;

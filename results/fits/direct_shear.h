@@ -1,10 +1,9 @@
 #pragma once
 
+#include "results/fits/fit.h"
 #include "results/runs/run.h"
 
 #include <cstdint>
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace feldspar
@@ -18,14 +17,7 @@ struct ShearLine
   std::uint64_t n; ///< tests
 };
 
-/// The line by least squares, or the reason why there is none.
-struct ShearLineResult
-{
-  std::optional<ShearLine> line;
-  std::string reason;
-};
-
-/// The line through the tests whose pressure acts across the measured stress; others are passed over. Every test counts
+/// The line by least squares through the tests whose pressure acts across the measured stress; others are passed over. Every test counts
 /// once; normal stresses of two sizes or more are needed.
-ShearLineResult fit_shear_line(const std::vector<const FinishedTest*>& tests);
+FitOrReason<ShearLine> fit_shear_line(const std::vector<const FinishedTest*>& tests);
 } // namespace feldspar

@@ -17,18 +17,12 @@ namespace
 constexpr double least_strength = 1.0;
 constexpr double greatest_stress = 1e15;
 
-bool has_less_confinement(const PointResidual& a, const PointResidual& b) { return a.point.sigma_3 < b.point.sigma_3; }
+double confinement(const PointResidual& one) { return one.point.sigma_3; }
 } // namespace
 
-double FitQuality::lowest_sigma_3() const
-{
-  return std::ranges::min_element(residuals, has_less_confinement)->point.sigma_3;
-}
+double FitQuality::lowest_sigma_3() const { return confinement(std::ranges::min(residuals, {}, confinement)); }
 
-double FitQuality::highest_sigma_3() const
-{
-  return std::ranges::max_element(residuals, has_less_confinement)->point.sigma_3;
-}
+double FitQuality::highest_sigma_3() const { return confinement(std::ranges::max(residuals, {}, confinement)); }
 
 FitQuality quality(const std::vector<EnvelopePoint>& points, const std::vector<double>& fitted_sigma_1,
                    const int n_parameters)

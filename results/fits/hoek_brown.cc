@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace feldspar
 {
@@ -284,12 +285,26 @@ FitOrReason<HoekBrownFit> fit(const Task& task, const std::vector<EnvelopePoint>
   result.quality = quality(in_pascal, fitted, n);
   return {result, ""};
 }
+
+struct FormWords
+{
+  std::string_view name, title;
+};
+
+constexpr FormWords words_of_forms[] = {{"as_paper", "s and a free"}, // by their enumerators
+                                        {"intact", "intact"},
+                                        {"general", "a free"},
+                                        {"intact_by_regression", "intact, regression"}};
 } // namespace
 
-std::string name(const HoekBrownForm form)
+std::string name(const HoekBrownForm form) { return std::string(words_of_forms[std::size_t(form)].name); }
+
+std::string title(const HoekBrownForm form) { return std::string(words_of_forms[std::size_t(form)].title); }
+
+std::string title_of_form(const std::string& name_in_files)
 {
-  constexpr std::array names{"as_paper", "intact", "general", "intact_by_regression"}; // by their enumerators
-  return names[std::size_t(form)];
+  const auto* const form = std::ranges::find(words_of_forms, name_in_files, &FormWords::name);
+  return form == std::end(words_of_forms) ? "Mohr–Coulomb" : std::string(form->title);
 }
 
 double hoek_brown_sigma_1(const double sigma_3, const double sigma_ci, const double m, const double s, const double a)

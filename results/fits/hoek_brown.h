@@ -18,6 +18,12 @@ enum class HoekBrownForm
 /// The name used in result files.
 std::string name(HoekBrownForm form);
 
+/// The name of a form as readers see it, by the parameters that are free; a rock need have no paper.
+std::string title(HoekBrownForm form);
+
+/// The same by the name of an envelope in result files.
+std::string title_of_form(const std::string& name_in_files);
+
 /// sigma_3 + sigma_ci (m sigma_3/sigma_ci + s)^a (16); NaN beyond the tensile cut-off.
 double hoek_brown_sigma_1(double sigma_3, double sigma_ci, double m, double s, double a);
 

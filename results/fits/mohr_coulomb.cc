@@ -11,10 +11,8 @@ double MohrCoulombFit::sigma_1(const double sigma_3) const { return uniaxial_str
 
 FitOrReason<MohrCoulombFit> fit_mohr_coulomb(const StrengthData& data)
 {
-  std::vector<EnvelopePoint> points;
-  for (const auto& point : data.points)
-    if (!(point.sigma_3 < 0.0))
-      points.push_back(point);
+  std::vector<EnvelopePoint> points = data.points;
+  std::erase_if(points, [](const EnvelopePoint& point) { return point.sigma_3 < 0.0; });
   constexpr int n_parameters = 2;
   if (const auto objection = objection_to(points, n_parameters); !objection.empty())
     return {std::nullopt, objection};

@@ -1,7 +1,6 @@
 #include "results/fits/strength_envelopes.h"
 
 #include "base/text.h"
-#include "results/fits/form_titles.h"
 
 #include <fmt/format.h>
 
@@ -17,60 +16,37 @@ namespace
 {
 constexpr double degree = std::numbers::pi / 180.0;
 
-void add(std::vector<FitEntry>& entries, const std::string& quantity, const std::string& unit, const Estimate& estimate)
+/// An estimate of a fit by its name in result files.
+template <typename Fit>
+struct NamedEstimate
 {
-  entries.push_back({quantity + unit, {estimate.value, ""}});
-  entries.push_back({quantity + "_confidence_95" + unit, estimate.half_width});
-}
+  std::string quantity;
+  const char* unit;
+  Estimate Fit::*estimate;
+};
 
-void add(std::vector<FitEntry>& entries, const FitQuality& quality)
+template <typename Fit>
+FitRecord record(const std::string& form, const std::string& variant, const FitOrReason<Fit>& answer,
+                 const std::vector<NamedEstimate<Fit>>& estimates, const StrengthData& data)
 {
-  entries.push_back({"degrees_of_freedom", {double(quality.degrees_of_freedom), ""}});
-  entries.push_back({"r_squared", quality.r_squared});
-  entries.push_back({"root_mean_square_Pa", {quality.root_mean_square, ""}});
-}
-
-void add_measured(std::vector<FitEntry>& entries, const StrengthData& data)
-{
-  const auto figure = [](const std::optional<double>& value) { return Figure{value, value ? "" : "not measured"}; };
-  entries.push_back({"measured_uniaxial_compressive_strength_Pa", figure(data.uniaxial_compressive_strength)});
-  entries.push_back({"measured_tensile_strength_Pa", figure(data.tensile_strength)});
-}
-
-FitRecord record(const HoekBrownRow& row, const StrengthData& data)
-{
-  const auto& fit_or_reason = row.answer;
-  FitRecord result{name(row.form), "", fit_or_reason.reason, {}, {}};
-  if (row.with_tension_point)
-    result.variant = *row.with_tension_point ? "with_tension_point" : "without_tension_point";
-  if (!fit_or_reason.fit)
+  FitRecord result{form, variant, answer.reason, {}, {}};
+  if (!answer.fit)
     return result;
-  const auto& fit = *fit_or_reason.fit;
-  add(result.entries, "sigma_ci", "_Pa", fit.sigma_ci);
-  add(result.entries, "m", "", fit.m);
-  add(result.entries, "s", "", fit.s);
-  add(result.entries, "a", "", fit.a);
-  add(result.entries, "uniaxial_compressive_strength", "_Pa", fit.uniaxial_compressive_strength);
-  add(result.entries, "tensile_cut_off", "_Pa", fit.tensile_cut_off);
-  add(result.entries, fit.quality);
-  add_measured(result.entries, data);
-  result.residuals = fit.quality.residuals;
-  return result;
-}
-
-FitRecord record(const FitOrReason<MohrCoulombFit>& fit_or_reason, const StrengthData& data)
-{
-  FitRecord result{"mohr_coulomb", "", fit_or_reason.reason, {}, {}};
-  if (!fit_or_reason.fit)
-    return result;
-  const auto& fit = *fit_or_reason.fit;
-  add(result.entries, "friction_angle", "_rad", fit.friction_angle);
-  add(result.entries, "cohesion", "_Pa", fit.cohesion);
-  add(result.entries, "slope", "", fit.slope);
-  add(result.entries, "uniaxial_compressive_strength", "_Pa", fit.uniaxial_strength);
-  add(result.entries, fit.quality);
-  add_measured(result.entries, data);
-  result.residuals = fit.quality.residuals;
+  for (const auto& [quantity, unit, estimate] : estimates)
+    {
+      result.entries.push_back({quantity + unit, {((*answer.fit).*estimate).value, ""}});
+      result.entries.push_back({quantity + "_confidence_95" + unit, ((*answer.fit).*estimate).half_width});
+    }
+  const auto measured = [](const std::optional<double>& value) { return Figure{value, value ? "" : "not measured"}; };
+  const FitQuality& quality = answer.fit->quality;
+  for (const FitEntry& one :
+       {FitEntry{"degrees_of_freedom", {double(quality.degrees_of_freedom), ""}},
+        {"r_squared", quality.r_squared},
+        {"root_mean_square_Pa", {quality.root_mean_square, ""}},
+        {"measured_uniaxial_compressive_strength_Pa", measured(data.uniaxial_compressive_strength)},
+        {"measured_tensile_strength_Pa", measured(data.tensile_strength)}})
+    result.entries.push_back(one);
+  result.residuals = quality.residuals;
   return result;
 }
 
@@ -111,12 +87,8 @@ std::string table(const std::vector<Row>& rows)
 /// Fit with the tension point, where the strengths have one, and more points than parameters; null if there is none.
 const HoekBrownFit* fit_with_freedom(const StrengthEnvelopes& envelopes, const HoekBrownForm form)
 {
-  for (const auto& pair : envelopes.hoek_brown)
-    if (const auto& fit =
-          envelopes.data.tensile_strength ? pair.with_tension_point.fit : pair.without_tension_point.fit;
-        pair.form == form && fit && fit->quality.degrees_of_freedom > 0)
-      return &*fit;
-  return nullptr;
+  const HoekBrownFit* const fit = envelopes.fit(form, envelopes.data.tensile_strength.has_value());
+  return fit && fit->quality.degrees_of_freedom > 0 ? fit : nullptr;
 }
 
 /// Remark that the intact form is no envelope of these strengths; begins with a space, empty where it is one.
@@ -146,16 +118,12 @@ bool rises_more_steeply_under_confinement(const StrengthData& data)
            *data.uniaxial_compressive_strength / *data.tensile_strength;
 }
 
-std::vector<HoekBrownRow> StrengthEnvelopes::rows() const
+const HoekBrownFit* StrengthEnvelopes::fit(const HoekBrownForm form, const bool with_tension_point) const
 {
-  std::vector<HoekBrownRow> all;
-  for (const HoekBrownPair& pair : hoek_brown)
-    {
-      all.push_back({pair.form, true, pair.with_tension_point});
-      all.push_back({pair.form, false, pair.without_tension_point});
-    }
-  all.push_back({HoekBrownForm::regressed, std::nullopt, regressed});
-  return all;
+  for (const HoekBrownRow& row : hoek_brown)
+    if (row.form == form && row.with_tension_point.value_or(false) == with_tension_point && row.answer.fit)
+      return &*row.answer.fit;
+  return nullptr;
 }
 
 const HoekBrownFit* StrengthEnvelopes::representative() const
@@ -179,18 +147,38 @@ std::optional<double> miss_of_intact_form(const StrengthEnvelopes& envelopes)
 
 StrengthEnvelopes fit_strength_envelopes(const StrengthData& data)
 {
-  StrengthEnvelopes result{data, {}, regress_hoek_brown(data), fit_mohr_coulomb(data)};
+  StrengthEnvelopes result{data, {}, fit_mohr_coulomb(data)};
   for (const auto form : {HoekBrownForm::as_paper, HoekBrownForm::intact, HoekBrownForm::general})
-    result.hoek_brown.push_back({form, fit_hoek_brown(data, form, true), fit_hoek_brown(data, form, false)});
+    for (const bool with_tension_point : {true, false})
+      result.hoek_brown.push_back({form, with_tension_point, fit_hoek_brown(data, form, with_tension_point)});
+  result.hoek_brown.push_back({HoekBrownForm::regressed, std::nullopt, regress_hoek_brown(data)});
   return result;
 }
 
 std::vector<FitRecord> records(const StrengthEnvelopes& envelopes)
 {
+  using H = HoekBrownFit;
+  using M = MohrCoulombFit;
   std::vector<FitRecord> result;
-  for (const HoekBrownRow& row : envelopes.rows())
-    result.push_back(record(row, envelopes.data));
-  result.push_back(record(envelopes.mohr_coulomb, envelopes.data));
+  for (const auto& [form, with_tension_point, answer] : envelopes.hoek_brown)
+    result.push_back(record<H>(name(form),
+                               !with_tension_point   ? ""
+                               : *with_tension_point ? "with_tension_point"
+                                                     : "without_tension_point",
+                               answer,
+                               {{"sigma_ci", "_Pa", &H::sigma_ci},
+                                {"m", "", &H::m},
+                                {"s", "", &H::s},
+                                {"a", "", &H::a},
+                                {"uniaxial_compressive_strength", "_Pa", &H::uniaxial_compressive_strength},
+                                {"tensile_cut_off", "_Pa", &H::tensile_cut_off}},
+                               envelopes.data));
+  result.push_back(record<M>("mohr_coulomb", "", envelopes.mohr_coulomb,
+                             {{"friction_angle", "_rad", &M::friction_angle},
+                              {"cohesion", "_Pa", &M::cohesion},
+                              {"slope", "", &M::slope},
+                              {"uniaxial_compressive_strength", "_Pa", &M::uniaxial_strength}},
+                             envelopes.data));
   return result;
 }
 
@@ -202,7 +190,7 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   std::vector<std::string> notes;
   rows.push_back({"Hoek-Brown", "sigma_ci", "m", "s", "a"});
   strengths.push_back({"Hoek-Brown", "R²", "RMS", "UCS", "sigma_t"});
-  for (const auto& [of_form, with_tension_point, answer] : envelopes.rows())
+  for (const auto& [of_form, with_tension_point, answer] : envelopes.hoek_brown)
     {
       const std::string form = title(of_form) + (with_tension_point.value_or(true) ? "" : ", no σ_t");
       if (!answer.fit)
@@ -265,17 +253,15 @@ std::string remark(const StrengthEnvelopes& envelopes)
     (envelopes.data.tension_is_indirect ? "The tensile strength is that of Brazilian tests, for want of direct ones. "
                                         : "") +
     "Admissible is s <= 1: with s > 1 the rock would be stronger than intact." + remark_on_intact_form(envelopes);
-  const auto with_free_s =
-    std::ranges::find_if(envelopes.hoek_brown, [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });
+  const HoekBrownFit* const with = envelopes.fit(HoekBrownForm::as_paper, true);
   const auto& measured = envelopes.data.uniaxial_compressive_strength;
-  if (with_free_s == envelopes.hoek_brown.end() || !with_free_s->with_tension_point.fit || !measured)
+  if (!with || !measured)
     return result;
-  const auto& with = *with_free_s->with_tension_point.fit;
-  result += fmt::format(" With s and a free, the envelope with the tension point has s = {:.2f}.", with.s.value);
-  if (with.s.value <= 1.0005) // but for what is shown of it
+  result += fmt::format(" With s and a free, the envelope with the tension point has s = {:.2f}.", with->s.value);
+  if (with->s.value <= 1.0005) // but for what is shown of it
     return result;
   result += fmt::format(" It says {:.0f} MPa at sigma_3 = 0, where {:.0f} MPa were measured.",
-                        with.uniaxial_compressive_strength.value / 1e6, *measured / 1e6);
+                        with->uniaxial_compressive_strength.value / 1e6, *measured / 1e6);
   if (rises_more_steeply_under_confinement(envelopes.data))
     result += " The points rise more steeply from the uniaxial test to the first confinement than from tension to the "
               "uniaxial test. An envelope flattens all the way: one that begins at sigma_t passes above the uniaxial "
@@ -283,7 +269,7 @@ std::string remark(const StrengthEnvelopes& envelopes)
   else
     result += " An envelope that begins at sigma_t and meets the points at high confinement passes above the uniaxial "
               "strength.";
-  if (const auto& without = with_free_s->without_tension_point.fit)
+  if (const HoekBrownFit* const without = envelopes.fit(HoekBrownForm::as_paper, false))
     result += fmt::format(" Without the tension point s = {:.2f}.", without->s.value);
   return result;
 }

@@ -9,31 +9,23 @@
 
 namespace feldspar
 {
-struct HoekBrownPair
-{
-  HoekBrownForm form;
-  FitOrReason<HoekBrownFit> with_tension_point;
-  FitOrReason<HoekBrownFit> without_tension_point;
-};
-
 /// A fit of Hoek and Brown's form among all.
 struct HoekBrownRow
 {
   HoekBrownForm form;
   std::optional<bool> with_tension_point; ///< none of a form that is fitted in one way only
-  const FitOrReason<HoekBrownFit>& answer;
+  FitOrReason<HoekBrownFit> answer;
 };
 
 /// Every envelope of the same data.
 struct StrengthEnvelopes
 {
   StrengthData data;
-  std::vector<HoekBrownPair> hoek_brown; ///< as_paper, intact, general
-  FitOrReason<HoekBrownFit> regressed;   ///< without the tension point
+  std::vector<HoekBrownRow> hoek_brown; ///< in the order of tables
   FitOrReason<MohrCoulombFit> mohr_coulomb;
 
-  /// The fits of Hoek and Brown's form, in the order of tables; they refer to these envelopes.
-  std::vector<HoekBrownRow> rows() const;
+  /// The fit of a form with the tension point or, as the regression always is, without; null if there is none.
+  const HoekBrownFit* fit(HoekBrownForm form, bool with_tension_point) const;
 
   /// The envelope that stands for these strengths where only one is drawn: the intact form, with the tension point of
   /// strengths that have one. Where that misses its points and the general form does by less than half as much, the

@@ -6,7 +6,6 @@
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "base/table/csv.h"
-#include "base/text.h"
 #include "laboratory/named_entries.h"
 #include "results/folder/provenance_json.h"
 

@@ -1,10 +1,13 @@
 #include "results/folder/csv_tables.h"
 
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/table/csv.h"
 #include "base/whole_file.h"
 #include "results/folder/table_columns.h"
 #include "results/minerals.h"
+#include "results/runs/run.h"
+#include "results/variant_setting.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,39 +62,27 @@ std::vector<std::optional<std::size_t>> places_of(const CsvReader& table, const 
 }
 
 /// The cells that should have a finite number and have none.
-class Gaps
+struct Gaps
 {
-public:
-  /// `fate`: what becomes of their rows, in words.
-  Gaps(const std::filesystem::path& of_file, const std::string_view of_rows)
-    : file(of_file.string())
-    , fate(of_rows)
-  {
-  }
+  std::string first = {};
+  std::size_t n = 0;
 
   void add(const CsvReader& table, const std::size_t column)
   {
-    if (n == 0)
+    if (n++ == 0)
       first = fmt::format("line {}: {} is {}", table.line_of_row(), excerpt(table.name_of(column)),
                           excerpt(table.text(column)));
-    ++n;
   }
 
-  std::size_t number() const { return n; }
-
-  std::string remark() const
+  /// `fate`: what becomes of their rows, in words.
+  std::string remark(const std::filesystem::path& file,
+                     const std::string_view fate = "rows with such cells are left out") const
   {
     if (n == 0)
       return "";
-    return fmt::format("{}: {}{}, no finite number; {}", printable(file), first,
+    return fmt::format("{}: {}{}, no finite number; {}", printable(file.string()), first,
                        n > 1 ? fmt::format(" (and {} more such cell{})", n - 1, n > 2 ? "s" : "") : "", fate);
   }
-
-private:
-  std::string file;
-  std::string_view fate;
-  std::string first;
-  std::size_t n = 0;
 };
 
 template <typename Row, typename Columns>
@@ -110,8 +101,6 @@ Row row_of(const CsvReader& table, const Columns& columns, const std::vector<std
       }
   return row;
 }
-
-constexpr std::string_view left_out = "rows with such cells are left out";
 } // namespace
 
 void write_curve(const TestRecord& record, const std::filesystem::path& file)
@@ -128,103 +117,63 @@ TableRows<CurveSample> read_curve(const std::filesystem::path& file, const TestK
 {
   CsvReader table(file);
   const auto places = places_of(table, curve_columns);
-  Gaps gaps(file, "curves have gaps there");
+  Gaps gaps;
   TableRows<CurveSample> curve;
   while (table.next())
     curve.rows.push_back(row_of<CurveSample>(table, curve_columns, places, kind.sign, gaps));
-  curve.remark = gaps.remark();
+  curve.remark = gaps.remark(file, "curves have gaps there");
   return curve;
 }
 
 namespace
 {
-std::string header_of_cracks()
-{
-  std::string text = "test,kind,";
-  append_names(text, crack_columns);
-  return text;
-}
-
-void append_cracks(std::string& text, const std::vector<Crack>& cracks, const std::string& name, const TestKind& kind)
-{
-  for (const auto& crack : cracks)
-    {
-      fmt::format_to(std::back_inserter(text), "{},{},", name, kind_name(crack.kind));
-      append_row(text, crack_columns, crack, kind.sign);
-    }
-}
-
-/// The test that a row belongs to, and the place of its rows.
-template <typename Row>
-struct RowsOfTest
-{
-  std::string_view name;
-  TestKind kind;
-  std::vector<Row>* rows;
-};
-
-/// Gives each row to the test that it names; complete(row, table) adds what is no number.
-template <typename Row, typename Columns, typename Complete>
-std::string read_rows_into(const std::filesystem::path& file, const Columns& columns,
-                           const std::vector<RowsOfTest<Row>>& tests, const Complete& complete)
+/// Gives each row without gaps to the test that it names: complete(row, table) adds what is no number, keep(record, row) takes it.
+template <typename Row, typename Columns, typename Complete, typename Keep>
+std::string read_rows_into(std::vector<FinishedTest>& tests, const std::filesystem::path& file, const Columns& columns,
+                           const Complete& complete, const Keep& keep)
 {
   CsvReader table(file);
   const std::size_t name = table.place("test");
   const auto places = places_of(table, columns);
-  std::map<std::string_view, const RowsOfTest<Row>*> by_name;
-  for (const auto& test : tests)
+  std::map<std::string_view, FinishedTest*> by_name;
+  for (auto& test : tests)
     by_name[test.name] = &test;
-  Gaps gaps(file, left_out);
+  Gaps gaps;
   while (table.next())
     if (const auto found = by_name.find(table.text(name)); found != by_name.end())
       {
-        const std::size_t n_gaps = gaps.number();
-        Row row = row_of<Row>(table, columns, places, found->second->kind.sign, gaps);
+        const std::size_t n_gaps = gaps.n;
+        Row row = row_of<Row>(table, columns, places, found->second->record.kind.sign, gaps);
         complete(row, table);
-        if (gaps.number() == n_gaps)
-          found->second->rows->push_back(row);
+        if (gaps.n == n_gaps)
+          keep(found->second->record, row);
       }
-  return gaps.remark();
-}
-
-std::string read_cracks_into(const std::filesystem::path& file, const std::vector<RowsOfTest<Crack>>& tests)
-{
-  return read_rows_into(file, crack_columns, tests, [](Crack& crack, const CsvReader& table) {
-    crack.kind =
-      table.text(table.place("kind")) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
-  });
+  return gaps.remark(file);
 }
 } // namespace
 
 void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
 {
-  std::string text = header_of_cracks();
+  std::string text = "test,kind,";
+  append_names(text, crack_columns);
   for (const auto& test : tests)
-    append_cracks(text, test.record.cracks, test.name, test.record.kind);
-  write_whole_file(file, text);
-}
-
-void write_cracks(const std::vector<Crack>& cracks, const std::string& name, const TestKind& kind,
-                  const std::filesystem::path& file)
-{
-  std::string text = header_of_cracks();
-  append_cracks(text, cracks, name, kind);
+    for (const auto& crack : test.record.cracks)
+      {
+        fmt::format_to(std::back_inserter(text), "{},{},", test.name, kind_name(crack.kind));
+        append_row(text, crack_columns, crack, test.record.kind.sign);
+      }
   write_whole_file(file, text);
 }
 
 std::string read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
 {
-  std::vector<RowsOfTest<Crack>> all;
-  for (auto& test : tests)
-    all.push_back({test.name, test.record.kind, &test.record.cracks});
-  return read_cracks_into(file, all);
-}
-
-TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind)
-{
-  TableRows<Crack> cracks;
-  cracks.remark = read_cracks_into(file, {{name, kind, &cracks.rows}});
-  return cracks;
+  return read_rows_into<Crack>(
+    tests, file, crack_columns,
+    [](Crack& crack, const CsvReader& table) {
+      crack.kind =
+        table.text(table.place("kind")) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
+    },
+    [](TestRecord& record, const Crack& crack) { record.cracks.push_back(crack); });
 }
 
 void write_events(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
@@ -247,15 +196,9 @@ void write_events(const std::vector<FinishedTest>& tests, const std::filesystem:
 
 std::string read_events(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
 {
-  std::vector<std::vector<EmissionRow>> rows(tests.size());
-  std::vector<RowsOfTest<EmissionRow>> all;
-  for (std::size_t k = 0; k < tests.size(); ++k)
-    all.push_back({tests[k].name, tests[k].record.kind, &rows[k]});
-  std::string remark = read_rows_into(file, emission_columns, all, [](EmissionRow&, const CsvReader&) {});
-  for (std::size_t k = 0; k < tests.size(); ++k)
-    for (const EmissionRow& row : rows[k])
-      tests[k].record.events.push_back(row.event);
-  return remark;
+  return read_rows_into<EmissionRow>(
+    tests, file, emission_columns, [](EmissionRow&, const CsvReader&) {},
+    [](TestRecord& record, const EmissionRow& row) { record.events.push_back(row.event); });
 }
 
 void write_minerals(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
@@ -318,16 +261,56 @@ TableRows<GrainPicture> read_grains(const std::filesystem::path& file)
   CsvReader table(file);
   const auto columns = grain_columns(table.has("clump") ? "clump" : "mineral_grain");
   const auto places = places_of(table, columns);
-  Gaps gaps(file, left_out);
+  Gaps gaps;
   TableRows<GrainPicture> grains;
   while (table.next())
     {
-      const std::size_t n_gaps = gaps.number();
+      const std::size_t n_gaps = gaps.n;
       const GrainPicture grain = row_of<GrainPicture>(table, columns, places, 1.0, gaps);
-      if (gaps.number() == n_gaps)
+      if (gaps.n == n_gaps)
         grains.rows.push_back(grain);
     }
-  grains.remark = gaps.remark();
+  grains.remark = gaps.remark(file);
   return grains;
+}
+
+namespace
+{
+/// Text of a cell, with quotes where a reader of CSV needs them.
+std::string cell(const std::string& text)
+{
+  if (text.find_first_of(",\"\n\r") == std::string::npos)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text)
+    quoted.append(c == '"' ? 2 : 1, c);
+  quoted += '"';
+  return quoted;
+}
+} // namespace
+
+void write_tests(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
+{
+  const auto settings = mapped<std::vector<VariantSetting>>(tests, [](const auto& test) { return test.settings; });
+  const std::vector<VariedColumn> varied = varied_columns(settings);
+  std::string text = "name,kind,seed";
+  for (const VariedColumn& column : varied)
+    text += fmt::format(",{}", cell(column.heading()));
+  for (const TestQuantity& quantity : test_quantities)
+    text += fmt::format(",{}", quantity.name);
+  text += "\n";
+  for (const auto& test : tests)
+    {
+      text += fmt::format("{},{},{}", cell(test.name), test.record.kind.name, test.record.seed);
+      for (const VariedColumn& column : varied)
+        text += fmt::format(",{}", cell(column.cell(test.settings)));
+      for (const TestQuantity& quantity : test_quantities)
+        {
+          const Figure figure = value_of(quantity, test);
+          text += figure.value && std::isfinite(*figure.value) ? fmt::format(",{:.10g}", *figure.value) : ",";
+        }
+      text += "\n";
+    }
+  write_whole_file(file, text);
 }
 } // namespace feldspar

@@ -37,11 +37,6 @@ void write_minerals(const std::vector<FinishedTest>& tests, const std::filesyste
 /// Reads them as read_cracks() does; mechanisms follow from the moments.
 std::string read_events(const std::filesystem::path& file, std::vector<FinishedTest>& tests);
 
-/// The cracks of a part of a test, under a name of its own.
-void write_cracks(const std::vector<Crack>& cracks, const std::string& name, const TestKind& kind,
-                  const std::filesystem::path& file);
-TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind);
-
 /// The steps of the samples of finite elements among the tests, a row a step; nothing where there is none. Counts and two
 /// digits of residuals, so that the number of processes, which changes the order of sums, leaves the file as it is.
 void write_steps(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
@@ -54,4 +49,9 @@ std::string group_name(const TestRecord& test);
 void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem::path& file,
                   const std::string& group = "mineral_grain");
 TableRows<GrainPicture> read_grains(const std::filesystem::path& file);
+
+/// All tests of a run as one table, for a data frame: a row a test; columns are its name, kind, seed, each entry that differs
+/// between variants, and each result by its name in summary.json. A number has a cell of its own, its unit is in the name of
+/// the column; what could not be had is empty. Throws OutputError.
+void write_tests(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
 } // namespace feldspar

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace feldspar
 {
@@ -16,20 +17,22 @@ namespace
 {
 using Points = VtkData::Components;
 
-Points places(const Snapshot& snapshot)
+/// The components of each grain; 0 where there are none.
+template <std::size_t n>
+std::vector<std::array<double, n>> by_grain(const std::array<std::vector<double>, n>& components)
 {
-  Points points(snapshot.position[0].size(), std::array<double, 3>{});
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < snapshot.position[c].size(); ++i)
-      points[i][c] = snapshot.position[c][i];
-  return points;
+  std::vector<std::array<double, n>> of_grains(components[0].size(), std::array<double, n>{});
+  for (std::size_t c = 0; c < n; ++c)
+    for (std::size_t i = 0; i < components[c].size(); ++i)
+      of_grains[i][c] = components[c][i];
+  return of_grains;
 }
 
 /// A number of each grain, from 1; 0 of grains without. Nothing where all are without.
 void add_numbers(VtkData& data, const std::string& name, const std::vector<GrainPicture>& grains,
                  std::uint32_t GrainPicture::*const number)
 {
-  const auto numbers = mapped<std::uint32_t>(grains, [&](const auto& grain) { return grain.*number; });
+  const auto numbers = mapped<std::uint32_t>(grains, number);
   if (std::ranges::any_of(numbers, [](const std::uint32_t one) { return one != 0; }))
     data.count(name, numbers);
 }
@@ -37,23 +40,16 @@ void add_numbers(VtkData& data, const std::string& name, const std::vector<Grain
 VtkData grains_at(const Snapshot& snapshot, const Points& start, const std::vector<GrainPicture>& grains,
                   const std::string& group)
 {
-  const Points now = places(snapshot);
+  const Points now = by_grain(snapshot.position);
   Points displacement = now;
   for (std::size_t i = 0; i < now.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
       displacement[i][c] -= start[i][c];
-  const auto radius = mapped<double>(grains, [](const auto& grain) { return grain.radius; });
   VtkData data(now, VtkData::Cells::points);
-  data.scalar("radius_m", radius);
+  data.scalar("radius_m", mapped<double>(grains, &GrainPicture::radius));
   data.vector("displacement_m", displacement);
   if (snapshot.stress[0].size() == now.size())
-    {
-      std::vector<std::array<double, 6>> stress(now.size(), std::array<double, 6>{});
-      for (std::size_t c = 0; c < 6; ++c)
-        for (std::size_t i = 0; i < snapshot.stress[c].size(); ++i)
-          stress[i][c] = snapshot.stress[c][i];
-      data.tensor("stress_Pa", stress);
-    }
+    data.tensor("stress_Pa", by_grain(snapshot.stress));
   data.count("fragment", snapshot.fragment);
   data.count("n_broken_segments", snapshot.n_broken_segments);
   add_numbers(data, group, grains, &GrainPicture::group);
@@ -90,52 +86,36 @@ void add_face(Points& corners, const Crack& crack, const bool in_space)
       corner(along_u, along_v);
 }
 
-/// The end of the cracks or events up to a snapshot.
+/// The cracks or events up to a snapshot.
 template <typename Row>
-auto end_at(const Snapshot& snapshot, const std::vector<Row>& all)
+std::span<const Row> until(const Snapshot& snapshot, const std::vector<Row>& all)
 {
-  return std::ranges::upper_bound(all, snapshot.step, {}, &Row::step);
+  return {all.begin(), std::ranges::upper_bound(all, snapshot.step, {}, &Row::step)};
 }
 
 VtkData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all, const bool in_space)
 {
-  const auto end = end_at(snapshot, all);
+  const auto cracks = until(snapshot, all);
   Points corners;
-  Points normal;
-  std::vector<double> size, energy;
-  std::vector<std::uint32_t> is_shear, step;
-  for (auto crack = all.begin(); crack != end; ++crack)
-    {
-      add_face(corners, *crack, in_space);
-      normal.push_back(crack->normal);
-      size.push_back(crack->size);
-      energy.push_back(crack->released_energy);
-      is_shear.push_back(crack->kind == CrackKind::shear);
-      step.push_back(std::uint32_t(crack->step));
-    }
+  for (const Crack& crack : cracks)
+    add_face(corners, crack, in_space);
   VtkData data(corners, in_space ? VtkData::Cells::squares : VtkData::Cells::lines);
-  data.count("is_shear", is_shear);
-  data.scalar("released_energy_J", energy);
-  data.vector("normal", normal);
-  data.scalar("size_m", size);
-  data.count("step", step);
+  data.count("is_shear",
+             mapped<std::uint32_t>(cracks, [](const Crack& crack) { return crack.kind == CrackKind::shear; }));
+  data.scalar("released_energy_J", mapped<double>(cracks, &Crack::released_energy));
+  data.vector("normal", mapped<std::array<double, 3>>(cracks, &Crack::normal));
+  data.scalar("size_m", mapped<double>(cracks, &Crack::size));
+  data.count("step", mapped<std::uint32_t>(cracks, &Crack::step));
   return data;
 }
 
 VtkData events_until(const Snapshot& snapshot, const std::vector<EmissionEvent>& all, const TestKind& kind,
                      const int dimension)
 {
-  Points centroids;
-  std::vector<std::array<double, 6>> moments;
-  std::vector<EmissionRow> rows;
-  const auto end = end_at(snapshot, all);
-  for (auto event = all.begin(); event != end; ++event)
-    {
-      centroids.push_back(event->centroid);
-      moments.push_back(event->moment);
-      rows.push_back(emission_row(*event, dimension));
-    }
-  VtkData data(centroids, VtkData::Cells::points);
+  const auto events = until(snapshot, all);
+  const auto rows =
+    mapped<EmissionRow>(events, [&](const EmissionEvent& event) { return emission_row(event, dimension); });
+  VtkData data(mapped<std::array<double, 3>>(events, &EmissionEvent::centroid), VtkData::Cells::points);
   for (const Column<EmissionRow>& column : emission_columns)
     {
       const auto values = mapped<double>(rows, [&](const EmissionRow& row) {
@@ -146,7 +126,7 @@ VtkData events_until(const Snapshot& snapshot, const std::vector<EmissionEvent>&
       else
         data.scalar(std::string(column.name), values);
     }
-  data.tensor("moment_tensor_Nm", moments);
+  data.tensor("moment_tensor_Nm", mapped<std::array<double, 6>>(events, &EmissionEvent::moment));
   return data;
 }
 
@@ -191,7 +171,7 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
   if (appearance.snapshots.empty())
     return;
   const bool in_space = !appearance.snapshots.front().position[2].empty();
-  const Points start = places(appearance.snapshots.front());
+  const Points start = by_grain(appearance.snapshots.front().position);
   make_vtk_folder(folder / name);
   std::vector<VtkTime> of_grains;
   std::vector<VtkTime> of_cracks;

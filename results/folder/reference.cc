@@ -140,6 +140,15 @@ double number(const Json& json, const Property& property, const Place& place)
   return value;
 }
 
+/// A number that must be there; `further`: the end of the error if it is not.
+double required(const Json& json, const char* const key, const Property& property, const Place& place,
+                const std::string_view further = "")
+{
+  if (!json.contains(key))
+    place.refuse(fmt::format("{} is missing{}", key, further));
+  return number(json[key], property, place / key);
+}
+
 std::string text(const Json& json, const Place& place)
 {
   if (!json.is_string())
@@ -205,9 +214,7 @@ PrintedEnvelope envelope_of(const Json& json, const Place& place)
 {
   expect_object(json, {"sigma_ci_MPa", "m", "s", "a", "note"}, place);
   const auto given = [&](const char* key, const double least, const double most) {
-    if (!json.contains(key))
-      place.refuse(fmt::format("{} is missing; it needs sigma_ci_MPa, m, s and a", key));
-    return number(json[key], {key, least, most}, place / key);
+    return required(json, key, {key, least, most}, place, "; it needs sigma_ci_MPa, m, s and a");
   };
   return {mega * given("sigma_ci_MPa", 0.1, 5000.0), given("m", 1e-3, 1000.0), given("s", 0.0, 100.0),
           given("a", 0.01, 1.0)};
@@ -216,9 +223,7 @@ PrintedEnvelope envelope_of(const Json& json, const Place& place)
 RockMass rock_mass_of(const Json& json, const Place& place)
 {
   expect_object(json, {"GSI", "D", "note"}, place);
-  if (!json.contains("GSI"))
-    place.refuse("GSI is missing, the geological strength index from 5 to 100");
-  return {number(json["GSI"], {"GSI", 5.0, 100.0}, place / "GSI"),
+  return {required(json, "GSI", {"GSI", 5.0, 100.0}, place, ", the geological strength index from 5 to 100"),
           json.contains("D") ? number(json["D"], {"D", 0.0, 1.0}, place / "D") : 0.0};
 }
 
@@ -228,9 +233,7 @@ void add_principal_stresses(ReferenceSource& source, const Json& json, const Pla
 {
   expect_object(json, {"sigma_1_MPa", "sigma_2_MPa", "sigma_3_MPa", "note"}, at);
   const auto stress = [&](const char* const key, const Property& property) {
-    if (!json.contains(key))
-      at.refuse(fmt::format("{} is missing", key));
-    return mega * number(json[key], property, at / key);
+    return mega * required(json, key, property, at);
   };
   const double sigma_3 = stress("sigma_3_MPa", least_stress);
   const double sigma_1 = stress("sigma_1_MPa", largest_stress);
@@ -396,10 +399,8 @@ std::optional<ReferenceValue> ReferenceSource::find(const std::string& key, cons
 
 std::vector<EnvelopePoint> ReferenceSource::strengths() const
 {
-  std::vector<EnvelopePoint> points;
-  for (const auto& point : triaxial)
-    if (point.sigma_3 != 0.0)
-      points.push_back(point);
+  std::vector<EnvelopePoint> points = triaxial;
+  std::erase_if(points, [](const EnvelopePoint& point) { return point.sigma_3 == 0.0; });
   const auto singles = points;
   for (const auto& [name, value] : values)
     if (const auto pressure = pressure_in(name, "strength_at_", "_MPa"))

@@ -8,9 +8,6 @@
 #include "base/readable_file.h"
 #include "results/folder/csv_tables.h"
 #include "results/folder/provenance_json.h"
-#include "results/folder/summary.h"
-#include "results/folder/tests_table.h"
-#include "results/runs/quantity_values.h"
 #include "results/sample_fields.h"
 
 #include <fmt/format.h>
@@ -185,18 +182,22 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
   return test;
 }
 
-/// Files of the RVE at a point of a sample, without ending.
-std::string name_of(const PointRve& rve, const std::string& test)
+/// The RVE at a point of a sample as a test of its own; its name is that of its files, without ending.
+FinishedTest part_of(const FinishedTest& sample, const PointRve& rve)
 {
-  return fmt::format("{}_cell_{}_point_{}", test, rve.cell, rve.point);
+  FinishedTest part;
+  part.name = fmt::format("{}_cell_{}_point_{}", sample.name, rve.cell, rve.point);
+  part.record.kind = sample.record.kind;
+  return part;
 }
 
 /// Writes an RVE by the tables that tests have.
 void write_rve(const PointRve& rve, const FinishedTest& of, const std::filesystem::path& folder)
 {
-  const std::string name = name_of(rve, of.name);
-  write_grains(rve.grains, folder / (name + "_grains.csv"));
-  write_cracks(rve.cracks, name, of.record.kind, folder / (name + "_cracks.csv"));
+  FinishedTest part = part_of(of, rve);
+  part.record.cracks = rve.cracks;
+  write_grains(rve.grains, folder / (part.name + "_grains.csv"));
+  write_cracks({part}, folder / (part.name + "_cracks.csv"));
 }
 
 /// The RVEs that a test keeps in its summary; layout 1 has them under another key.
@@ -237,9 +238,11 @@ PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesyste
       throw InputError("{}: an RVE of {} is not described as this program does it",
                        (folder.parent_path() / result_file::summary).string(), of.name);
     }
-  const std::string name = name_of(rve, of.name);
+  std::vector<FinishedTest> part{part_of(of, rve)};
+  const std::string& name = part[0].name;
   rve.grains = rows_of(read_grains(folder / (name + "_grains.csv")), problems);
-  rve.cracks = rows_of(read_cracks(folder / (name + "_cracks.csv"), name, of.record.kind), problems);
+  add_unless_empty(problems, read_cracks(folder / (name + "_cracks.csv"), part));
+  rve.cracks = std::move(part[0].record.cracks);
   return rve;
 }
 
@@ -382,11 +385,7 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
     {
       const auto [place, is_new] = place_of.emplace(test.variant.empty() ? label : test.variant, all.size());
       if (is_new)
-        all.push_back({place->first,
-                       test.record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements,
-                       read_provenance(json),
-                       {},
-                       {}});
+        all.push_back({place->first, kind_of_series(test.record.body), read_provenance(json), {}, {}});
       all[place->second].tests.push_back(std::move(test));
     }
   all.front().problems = problems;

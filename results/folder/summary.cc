@@ -1,11 +1,10 @@
-#include "results/folder/summary.h"
+#include "results/folder/result_folder.h"
 
 #include "base/colour.h"
 #include "base/whole_file.h"
 #include "results/evaluation.h"
 #include "results/fits/direct_shear.h"
 #include "results/folder/provenance_json.h"
-#include "results/runs/quantity_values.h"
 #include "results/runs/trust.h"
 #include "results/statistics.h"
 
@@ -75,6 +74,14 @@ Json stages(const TestRecord& record)
   return json;
 }
 
+void write_variant(Json& json, const FinishedTest& test)
+{
+  if (!test.variant.empty())
+    json["variant"] = test.variant;
+  if (!test.settings.empty())
+    json["variant_values"] = as_json(test.settings);
+}
+
 Json describe(const FinishedTest& test)
 {
   Json json;
@@ -87,10 +94,7 @@ Json describe(const FinishedTest& test)
     json["intermediate_stress_Pa"] = json_number(*test.record.intermediate_stress);
   if (test.record.normal_stiffness)
     json["normal_stiffness_Pa_per_m"] = json_number(*test.record.normal_stiffness);
-  if (!test.variant.empty())
-    json["variant"] = test.variant;
-  if (!test.settings.empty())
-    json["variant_values"] = as_json(test.settings);
+  write_variant(json, test);
   json["interrupted"] = test.record.interrupted;
   if (!test.record.failure.empty())
     json["failure"] = test.record.failure;
@@ -151,12 +155,8 @@ Json ensemble(const std::vector<FinishedTest>& tests)
   for (const auto& [group, members] : groups)
     {
       Json& out = json[group];
-      if (const FinishedTest& any = *members.front(); !any.variant.empty())
-        {
-          out["variant"] = any.variant;
-          if (!any.settings.empty())
-            out["variant_values"] = as_json(any.settings);
-        }
+      if (!members.front()->variant.empty())
+        write_variant(out, *members.front());
       out["n_tests"] = members.size();
       out["n_valid"] = std::ranges::count_if(members, [](const auto* test) { return test->counts(); });
       out["n_made"] = std::ranges::count_if(members, [](const auto* test) { return test->was_made(); });
@@ -241,9 +241,8 @@ Json fits_of_variants(const std::vector<FinishedTest>& tests, const RunEnvelopes
     if (const auto own = envelopes.find(test.variant); !test.variant.empty() && own != envelopes.end())
       if (written.insert(test.variant).second)
         {
-          Json variant{{"variant", test.variant}};
-          if (!test.settings.empty())
-            variant["variant_values"] = as_json(test.settings);
+          Json variant;
+          write_variant(variant, test);
           variant.update(envelopes_as_json(own->second));
           json.push_back(variant);
         }

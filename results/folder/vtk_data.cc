@@ -23,16 +23,21 @@ std::vector<float> flat(const VtkData::Components& values)
   return result;
 }
 
-std::size_t points_of_a_cell(const VtkData::Cells kind)
+struct CellForm
 {
-  constexpr std::size_t n_points[] = {1, 2, 4, 8}; // by their enumerators
-  return n_points[std::size_t(kind)];
-}
+  std::size_t n_points;
+  const char* element; ///< of the file
+};
+
+constexpr CellForm forms[] = {{1, "Verts"},
+                              {2, "Lines"},
+                              {4, "Polys"},
+                              {8, "Cells"}}; // of VtkData::Cells, by its enumerators
 } // namespace
 
 VtkData::VtkData(const Components& points, const Cells cells)
   : n_points(points.size())
-  , n_cells(points.size() / points_of_a_cell(cells))
+  , n_cells(points.size() / forms[std::size_t(cells)].n_points)
   , kind(cells)
 {
   geometry = reals("points", 3, flat(points));
@@ -40,7 +45,7 @@ VtkData::VtkData(const Components& points, const Cells cells)
   std::iota(of_cells_points.begin(), of_cells_points.end(), 0);
   std::vector<std::int32_t> ends(n_cells);
   for (std::size_t k = 0; k < n_cells; ++k)
-    ends[k] = std::int32_t((k + 1) * points_of_a_cell(kind));
+    ends[k] = std::int32_t((k + 1) * forms[std::size_t(kind)].n_points);
   connectivity = array("connectivity", "Int32", 1, of_cells_points.data(), 4 * of_cells_points.size()) +
                  array("offsets", "Int32", 1, ends.data(), 4 * ends.size());
   if (kind == Cells::hexahedra)
@@ -95,10 +100,7 @@ void VtkData::write(const std::filesystem::path& file) const
     is_grid ? fmt::format("NumberOfCells=\"{}\"", n_cells)
             : fmt::format("NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\"",
                           n_of(Cells::points), n_of(Cells::lines), n_of(Cells::squares));
-  const char* const element = is_grid                 ? "Cells"
-                              : kind == Cells::points ? "Verts"
-                              : kind == Cells::lines  ? "Lines"
-                                                      : "Polys";
+  const char* const element = forms[std::size_t(kind)].element;
   // Data of cells that are single points are written as data of points, so that glyphs find them.
   const bool are_points = kind == Cells::points;
   write_whole_file(

@@ -1,18 +1,29 @@
-#include "results/runs/remarks.h"
+#include "results/runs/trust.h"
 
+#include "base/append.h"
+#include "base/contains.h"
+#include "base/text.h"
 #include "laboratory/named_entries.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <utility>
 
+/// Remarks on tests, each in a sentence or two: a result that is missing, or a condition of a strength; the warnings of which
+/// they are a part.
 namespace feldspar
 {
 namespace
 {
+constexpr std::size_t fewest_seeds = 3; // below that a standard deviation says nothing
+constexpr std::string_view same_of_others = " The same holds for ";
+
 /// Returns whether a test ended so near to its peak that a higher one may lie beyond. A table of stages defines its own
 /// end, and a body that slides along a plane carries the same stress from its peak on.
 bool ended_near_its_peak(const FinishedTest& test)
@@ -73,8 +84,8 @@ std::optional<PlaneThrough> plane_through(const FinishedTest& test)
     }
   return steepest;
 }
-} // namespace
 
+/// Why a test has no result, or not all of it; empty if it has.
 std::string shortcoming(const FinishedTest& test)
 {
   const TestRecord& record = test.record;
@@ -104,6 +115,7 @@ std::string shortcoming(const FinishedTest& test)
   return "";
 }
 
+/// Why a splitting test is not valid; empty if it is, or is none.
 std::string remark_on_splitting(const FinishedTest& test)
 {
   if (!test.results.is_valid() && test.results.peak_stress.value)
@@ -115,6 +127,8 @@ std::string remark_on_splitting(const FinishedTest& test)
   return "";
 }
 
+/// A warning that rigid side plates make the body too strong, where it slides on a plane through it (docs/theory.md
+/// §3.1); empty where they do not. Bodies of one rock have the same flaws.
 std::string remark_on_side_plates(const TestsOfRock& tests)
 {
   constexpr double least_angle = 10.0 * std::numbers::pi / 180.0; // faces of rock with less friction are not known
@@ -140,6 +154,7 @@ std::string remark_on_side_plates(const TestsOfRock& tests)
   return "";
 }
 
+/// A remark that the strengths of a body with flaws are nominal stresses; empty for a body without flaws.
 std::string remark_on_flaws(const TestsOfRock& tests)
 {
   const bool any = std::ranges::any_of(tests, [](const FinishedTest* test) { return test->has_flaws(); });
@@ -149,6 +164,7 @@ std::string remark_on_flaws(const TestsOfRock& tests)
            : "";
 }
 
+/// A remark on where the strain ran away under load control; empty where no test was under it.
 std::string remark_on_load_control(const TestsOfRock& tests)
 {
   const auto lost = std::ranges::find_if(tests, [](const FinishedTest* const test) {
@@ -162,6 +178,7 @@ std::string remark_on_load_control(const TestsOfRock& tests)
                (*lost)->name, 100.0 * *(*lost)->results.strain_at_peak.value);
 }
 
+/// A remark that the tests ran faster than in the laboratory; empty where none did.
 std::string remark_on_rate(const TestsOfRock& tests)
 {
   const auto longest = std::ranges::max_element(tests, {}, [](const FinishedTest* const test) {
@@ -180,5 +197,153 @@ std::string remark_on_rate(const TestsOfRock& tests)
     "take up to {:.2g} steps.",
     rate(record.rate_over_laboratory), rate(1.0), record.rate_over_laboratory,
     (*longest)->bookkeeping.steps_at_laboratory_rate);
+}
+} // namespace
+
+std::vector<std::string> shortcomings(const TestsOfRock& tests, const SeriesKind kind)
+{
+  std::vector<std::string> sentences;
+  std::map<std::string, std::pair<std::size_t, std::vector<std::string>>>
+    alike; // by what is said: where, and further names
+  for (const FinishedTest* const test : tests)
+    for (const std::string& sentence : {shortcoming(*test), remark_on_splitting(*test)})
+      if (!sentence.empty())
+        {
+          auto& of = alike.try_emplace(sentence.substr(test->name.size()), sentences.size(), std::vector<std::string>())
+                       .first->second;
+          if (of.first == sentences.size())
+            sentences.push_back(sentence);
+          else
+            of.second.push_back(test->name);
+        }
+  for (const auto& [said, of] : alike)
+    if (!of.second.empty())
+      sentences[of.first] += fmt::format("{}{}.", same_of_others, some_of(of.second));
+  for (const std::string& sentence :
+       {remark_on_flaws(tests), remark_on_side_plates(tests), remark_on_load_control(tests), remark_on_rate(tests)})
+    if (!sentence.empty())
+      sentences.push_back(sentence);
+  std::set<std::uint64_t> seeds;
+  for (const FinishedTest* const test : tests)
+    seeds.insert(test->record.seed);
+  if (kind != SeriesKind::laboratory_curve && seeds.size() < fewest_seeds)
+    {
+      const std::string one = kind == SeriesKind::specimens ? "specimen" : "sample";
+      sentences.push_back(fmt::format("Only {} {}{}: what belongs to the rock and what to the single {} cannot be told "
+                                      "apart; take {} seeds or more.",
+                                      seeds.size(), one, seeds.size() == 1 ? "" : "s", one, fewest_seeds));
+    }
+  return sentences;
+}
+
+std::vector<std::string> warnings(const TestsOfRock& tests, const SeriesKind kind)
+{
+  std::vector<std::string> sentences = shortcomings(tests, kind);
+  for (const TrustCheck& check : trust_checks(tests, kind))
+    if (check.n_out > 0)
+      sentences.push_back(check.warning());
+  return sentences;
+}
+
+std::vector<std::string> warnings(const Series& series)
+{
+  std::vector<std::string> sentences = warnings(all_of(series), series.kind);
+  for (const auto& problem : series.problems)
+    sentences.push_back(problem + ".");
+  return sentences;
+}
+
+SharedWarnings shared_warnings(const std::vector<Series>& series)
+{
+  SharedWarnings shared;
+  TestsOfRock all;
+  std::vector<const Series*> models;
+  for (const Series& one : series)
+    {
+      shared.own.push_back(warnings(one));
+      if (one.kind == SeriesKind::laboratory_curve)
+        continue;
+      models.push_back(&one);
+      append(all, all_of(one));
+    }
+  if (models.size() < 2)
+    return shared;
+  const auto erase = [&](const Series& one, const std::string& sentence) {
+    std::erase(shared.own[std::size_t(&one - series.data())], sentence);
+  };
+  for (const std::string& sentence : shortcomings(all_of(*models.front()), models.front()->kind))
+    if (std::ranges::all_of(models, [&](const Series* const one) {
+          const auto its = shortcomings(all_of(*one), one->kind);
+          return contains(its, sentence);
+        }))
+      {
+        shared.of_all.push_back(sentence);
+        for (const Series* const one : models)
+          erase(*one, sentence);
+      }
+  for (const TrustCheck& of_all : trust_checks(all, models.front()->kind))
+    {
+      std::vector<std::string> sentences; // of the models that are out
+      for (const Series* const one : models)
+        for (const TrustCheck& check : trust_checks(*one))
+          if (check.measure.name == of_all.measure.name && check.n_out > 0)
+            sentences.push_back(check.warning());
+      if (sentences.size() < models.size())
+        continue;
+      shared.of_all.push_back(of_all.warning());
+      for (std::size_t k = 0; k < models.size(); ++k)
+        erase(*models[k], sentences[k]);
+    }
+  return shared;
+}
+
+std::vector<std::string> grouped_warnings(const std::vector<Series>& series)
+{
+  struct Alike
+  {
+    std::string form; ///< without names of tests and digits
+    std::string first;
+    std::size_t n; ///< models
+  };
+  std::vector<Alike> all_alike;
+  std::vector<std::string> problems;
+  TestsOfRock all;
+  std::size_t n_models = 0;
+  SeriesKind kind = SeriesKind::specimens;
+  for (const Series& one : series)
+    {
+      for (const auto& problem : one.problems)
+        problems.push_back(problem + ".");
+      if (one.kind == SeriesKind::laboratory_curve)
+        continue;
+      ++n_models;
+      kind = one.kind;
+      append(all, all_of(one));
+      std::set<std::string> forms;
+      for (const std::string& sentence : shortcomings(all_of(one), one.kind))
+        {
+          std::string form = sentence.substr(0, sentence.find(same_of_others));
+          for (const FinishedTest& test : one.tests)
+            if (const std::size_t at = form.find(test.name); at != std::string::npos)
+              form.erase(at, test.name.size());
+          std::erase_if(form, [](const char c) { return '0' <= c && c <= '9'; });
+          if (!forms.insert(form).second)
+            continue;
+          const auto same = std::ranges::find(all_alike, form, &Alike::form);
+          if (same == all_alike.end())
+            all_alike.push_back({form, sentence, 1});
+          else
+            ++same->n;
+        }
+    }
+  std::vector<std::string> sentences;
+  for (const auto& [form, first, n] : all_alike)
+    sentences.push_back(
+      n == 1 ? first : fmt::format("{} (so in {} of {} series).", first.substr(0, first.size() - 1), n, n_models));
+  for (const TrustCheck& check : trust_checks(all, kind))
+    if (check.n_out > 0)
+      sentences.push_back(check.warning());
+  append(sentences, problems);
+  return sentences;
 }
 } // namespace feldspar

@@ -1,7 +1,5 @@
 #include "results/runs/repeats.h"
 
-#include "results/runs/quantity_values.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -62,4 +62,11 @@ bool any_has_flaws(const std::vector<FinishedTest>& tests);
 /// A finished test, with the figures read off its record.
 FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant,
                       std::vector<VariantSetting> settings = {});
+
+/// The value of a quantity in a test. A test that could not be made has none but its loading: numbers in a record of it were
+/// not measured.
+Figure value_of(const TestQuantity& quantity, const FinishedTest& test);
+
+/// Puts back what value_of() gave.
+void set_value(const TestQuantity& quantity, FinishedTest& test, const Figure& figure);
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/mapped.h"
 #include "results/runs/run.h"
 
 #include <algorithm>
@@ -16,6 +17,11 @@ enum class SeriesKind
   laboratory_curve ///< measured on rock
 };
 
+constexpr SeriesKind kind_of_series(const TestBody body)
+{
+  return body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements;
+}
+
 /// Tests on one rock that the report shows under one name and in one colour: a result folder, or a variant in it.
 struct Series
 {
@@ -31,6 +37,11 @@ struct Series
 
 /// Tests of one rock, which outlive it.
 using TestsOfRock = std::vector<const FinishedTest*>;
+
+inline TestsOfRock all_of(const Series& series)
+{
+  return mapped<const FinishedTest*>(series.tests, [](const FinishedTest& test) { return &test; });
+}
 
 inline bool any_has_flaws(const std::vector<Series>& all)
 {

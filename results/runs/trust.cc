@@ -1,18 +1,11 @@
 #include "results/runs/trust.h"
 
-#include "base/append.h"
-#include "base/contains.h"
-#include "base/text.h"
-#include "laboratory/named_entries.h"
-#include "results/runs/quantity_values.h"
-#include "results/runs/remarks.h"
 #include "results/statistics.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -20,9 +13,6 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::size_t fewest_seeds = 3; // below that a standard deviation says nothing
-constexpr std::string_view same_of_others = " The same holds for ";
-
 using Value = std::optional<double>;
 
 /// The specimen tells of its width; a beam is longer than it is deep.
@@ -117,25 +107,6 @@ std::optional<TrustCheck> checked(const TrustMeasure& measure, const TestsOfRock
   return check;
 }
 
-TestsOfRock all_of(const Series& series)
-{
-  TestsOfRock tests;
-  for (const auto& test : series.tests)
-    tests.push_back(&test);
-  return tests;
-}
-
-SeriesKind kind_of(const TestRecord& record)
-{
-  return record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements;
-}
-
-std::string out_of_bounds(const TrustCheck& check)
-{
-  return fmt::format("Out of bounds in {} of {} tests: {}; worst {} ({}), bound {}.", check.n_out, check.n_tests,
-                     check.measure.title, check.measure.text(check.worst), check.worst_test,
-                     check.measure.bound_text());
-}
 } // namespace
 
 std::string TrustMeasure::text(const double number) const
@@ -147,6 +118,12 @@ std::string TrustMeasure::bound_text() const
 {
   return fmt::format("{} {:g}{}", bound.side == BoundSide::at_most ? "at most" : "at least", bound.value / shown.scale,
                      unit());
+}
+
+std::string TrustCheck::warning() const
+{
+  return fmt::format("Out of bounds in {} of {} tests: {}; worst {} ({}), bound {}.", n_out, n_tests, measure.title,
+                     measure.text(worst), worst_test, measure.bound_text());
 }
 
 std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, const SeriesKind kind)
@@ -173,153 +150,6 @@ std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, const SeriesKind 
 
 std::vector<TrustCheck> trust_checks(const Series& series) { return trust_checks(all_of(series), series.kind); }
 
-std::vector<std::string> shortcomings(const TestsOfRock& tests, const SeriesKind kind)
-{
-  std::vector<std::string> sentences;
-  std::map<std::string, std::pair<std::size_t, std::vector<std::string>>>
-    alike; // by what is said: where, and further names
-  for (const FinishedTest* const test : tests)
-    for (const std::string& sentence : {shortcoming(*test), remark_on_splitting(*test)})
-      if (!sentence.empty())
-        {
-          auto& of = alike.try_emplace(sentence.substr(test->name.size()), sentences.size(), std::vector<std::string>())
-                       .first->second;
-          if (of.first == sentences.size())
-            sentences.push_back(sentence);
-          else
-            of.second.push_back(test->name);
-        }
-  for (const auto& [said, of] : alike)
-    if (!of.second.empty())
-      sentences[of.first] += fmt::format("{}{}.", same_of_others, some_of(of.second));
-  for (const std::string& sentence :
-       {remark_on_flaws(tests), remark_on_side_plates(tests), remark_on_load_control(tests), remark_on_rate(tests)})
-    if (!sentence.empty())
-      sentences.push_back(sentence);
-  std::set<std::uint64_t> seeds;
-  for (const FinishedTest* const test : tests)
-    seeds.insert(test->record.seed);
-  if (kind != SeriesKind::laboratory_curve && seeds.size() < fewest_seeds)
-    {
-      const std::string one = kind == SeriesKind::specimens ? "specimen" : "sample";
-      sentences.push_back(fmt::format("Only {} {}{}: what belongs to the rock and what to the single {} cannot be told "
-                                      "apart; take {} seeds or more.",
-                                      seeds.size(), one, seeds.size() == 1 ? "" : "s", one, fewest_seeds));
-    }
-  return sentences;
-}
-
-std::vector<std::string> warnings(const TestsOfRock& tests, const SeriesKind kind)
-{
-  std::vector<std::string> sentences = shortcomings(tests, kind);
-  for (const TrustCheck& check : trust_checks(tests, kind))
-    if (check.n_out > 0)
-      sentences.push_back(out_of_bounds(check));
-  return sentences;
-}
-
-std::vector<std::string> warnings(const Series& series)
-{
-  std::vector<std::string> sentences = warnings(all_of(series), series.kind);
-  for (const auto& problem : series.problems)
-    sentences.push_back(problem + ".");
-  return sentences;
-}
-
-SharedWarnings shared_warnings(const std::vector<Series>& series)
-{
-  SharedWarnings shared;
-  TestsOfRock all;
-  std::vector<const Series*> models;
-  for (const Series& one : series)
-    {
-      shared.own.push_back(warnings(one));
-      if (one.kind == SeriesKind::laboratory_curve)
-        continue;
-      models.push_back(&one);
-      append(all, all_of(one));
-    }
-  if (models.size() < 2)
-    return shared;
-  const auto erase = [&](const Series& one, const std::string& sentence) {
-    std::erase(shared.own[std::size_t(&one - series.data())], sentence);
-  };
-  for (const std::string& sentence : shortcomings(all_of(*models.front()), models.front()->kind))
-    if (std::ranges::all_of(models, [&](const Series* const one) {
-          const auto its = shortcomings(all_of(*one), one->kind);
-          return contains(its, sentence);
-        }))
-      {
-        shared.of_all.push_back(sentence);
-        for (const Series* const one : models)
-          erase(*one, sentence);
-      }
-  for (const TrustCheck& of_all : trust_checks(all, models.front()->kind))
-    {
-      std::vector<std::string> sentences; // of the models that are out
-      for (const Series* const one : models)
-        for (const TrustCheck& check : trust_checks(*one))
-          if (check.measure.name == of_all.measure.name && check.n_out > 0)
-            sentences.push_back(out_of_bounds(check));
-      if (sentences.size() < models.size())
-        continue;
-      shared.of_all.push_back(out_of_bounds(of_all));
-      for (std::size_t k = 0; k < models.size(); ++k)
-        erase(*models[k], sentences[k]);
-    }
-  return shared;
-}
-
-std::vector<std::string> grouped_warnings(const std::vector<Series>& series)
-{
-  struct Alike
-  {
-    std::string form; ///< without names of tests and digits
-    std::string first;
-    std::size_t n; ///< models
-  };
-  std::vector<Alike> all_alike;
-  std::vector<std::string> problems;
-  TestsOfRock all;
-  std::size_t n_models = 0;
-  SeriesKind kind = SeriesKind::specimens;
-  for (const Series& one : series)
-    {
-      for (const auto& problem : one.problems)
-        problems.push_back(problem + ".");
-      if (one.kind == SeriesKind::laboratory_curve)
-        continue;
-      ++n_models;
-      kind = one.kind;
-      append(all, all_of(one));
-      std::set<std::string> forms;
-      for (const std::string& sentence : shortcomings(all_of(one), one.kind))
-        {
-          std::string form = sentence.substr(0, sentence.find(same_of_others));
-          for (const FinishedTest& test : one.tests)
-            if (const std::size_t at = form.find(test.name); at != std::string::npos)
-              form.erase(at, test.name.size());
-          std::erase_if(form, [](const char c) { return '0' <= c && c <= '9'; });
-          if (!forms.insert(form).second)
-            continue;
-          const auto same = std::ranges::find(all_alike, form, &Alike::form);
-          if (same == all_alike.end())
-            all_alike.push_back({form, sentence, 1});
-          else
-            ++same->n;
-        }
-    }
-  std::vector<std::string> sentences;
-  for (const auto& [form, first, n] : all_alike)
-    sentences.push_back(
-      n == 1 ? first : fmt::format("{} (so in {} of {} series).", first.substr(0, first.size() - 1), n, n_models));
-  for (const TrustCheck& check : trust_checks(all, kind))
-    if (check.n_out > 0)
-      sentences.push_back(out_of_bounds(check));
-  append(sentences, problems);
-  return sentences;
-}
-
 std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests)
 {
   std::vector<RockTests> rocks;
@@ -327,7 +157,7 @@ std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests)
     {
       auto rock = std::ranges::find(rocks, test.variant, &RockTests::variant);
       if (rock == rocks.end())
-        rock = rocks.insert(rocks.end(), {test.variant, kind_of(test.record), {}});
+        rock = rocks.insert(rocks.end(), {test.variant, kind_of_series(test.record.body), {}});
       rock->tests.push_back(&test);
     }
   return rocks;

@@ -38,6 +38,8 @@ struct TrustCheck
   double mean;
   double worst;
   std::string worst_test;
+
+  std::string warning() const; ///< that tests are out of the bound
 };
 
 /// Energy balance, quasi-static evidence, servo, resolution, packing, elasticity; nothing for what was measured on rock.

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "tests/content.h"
-
-#include <nlohmann/json.hpp>
+#include "tests/app/result_files.h"
 
 #include <numeric>
 #include <stdexcept>
@@ -12,9 +10,7 @@
 /// Committed results (scripts/keep-results.py): a key that is not there does not apply.
 namespace feldspar::tests
 {
-using Json = nlohmann::json;
-
-inline Json json_of(const std::string& path) { return Json::parse(content(FELDSPAR_SOURCE_DIR "/" + path)); }
+inline Json json_of(const std::string& path) { return read_json(FELDSPAR_SOURCE_DIR "/" + path); }
 
 /// Results of an example by the names of its folder and of the file.
 inline Json results_of(const std::string& example, const std::string& study)

@@ -4,12 +4,12 @@
 #include "results/emission.h"
 #include "results/folder/result_folder.h"
 #include "results/sample_fields.h"
+#include "tests/app/result_files.h"
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,13 +52,11 @@ struct Piece
 std::vector<Piece> read_time_series(const fs::path& file)
 {
   const TemporaryFolder folder;
-  const fs::path out = folder.path() / "out";
-  EXPECT_EQ(std::system(fmt::format("/usr/bin/python3 -I '{}/tests/app/read_vtk.py' '{}' >'{}'", FELDSPAR_SOURCE_DIR,
-                                    file.string(), out.string())
-                          .c_str()),
-            0);
+  const Outcome read = run_command(
+    folder, fmt::format("/usr/bin/python3 -I '" FELDSPAR_SOURCE_DIR "/tests/app/read_vtk.py' '{}'", file.string()));
+  EXPECT_EQ(read.exit_code, 0) << read.error;
   std::vector<Piece> series;
-  std::ifstream lines(out);
+  std::istringstream lines(read.output);
   for (std::string line; std::getline(lines, line);)
     {
       const auto json = nlohmann::json::parse(line);
@@ -230,7 +228,7 @@ void expect_events(const std::vector<Piece>& series, const TestRecord& record)
 void expect_script(const fs::path& fields, const std::string& name)
 {
   const TemporaryFolder folder;
-  fs::create_directories(folder.path() / "paraview");
+  fs::create_directories(folder / "paraview");
   folder.write("paraview/__init__.py", "");
   folder.write("paraview/simple.py", R"(class Anything:
     def __init__(self, *arguments, **named): pass
@@ -241,13 +239,8 @@ def ColorBy(shown, array): print("colours", *array)
 def Calculator(Input, Function, ResultArrayName): print("calculates", Function); return Anything()
 GetActiveViewOrCreate = Glyph = Show = GetAnimationScene = ResetCamera = Render = Anything()
 )");
-  const fs::path out = folder.path() / "out";
-  ASSERT_EQ(std::system(fmt::format("PYTHONPATH='{}' /usr/bin/python3 '{}' >'{}'", folder.path().string(),
-                                    (fields / (name + "_paraview.py")).string(), out.string())
-                          .c_str()),
-            0);
-  std::ifstream lines(out);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(lines), {}),
+  const std::string script = (fields / (name + "_paraview.py")).string();
+  EXPECT_EQ(run_command(folder, "PYTHONPATH='" + folder.path().string() + "' /usr/bin/python3 '" + script + "'").output,
             fmt::format("opens {0}_grains.pvd\ncolours POINTS fragment\nopens {0}_cracks.pvd\ncolours CELLS is_shear\n"
                         "opens {0}_emission.pvd\ncalculates moment_Nm^(1/3)\ncolours POINTS isotropic_share\n",
                         name));
@@ -257,9 +250,8 @@ GetActiveViewOrCreate = Glyph = Show = GetAnimationScene = ResetCamera = Render 
 void expect_fields(const TemporaryFolder& folder, const std::size_t least, const std::size_t most,
                    const std::string& group = "")
 {
-  const auto outcome = run_without_pictures(folder.path(), "lab rock.prm --output out --quiet");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  const fs::path out = folder.path() / "out";
+  run_to_end(folder, "lab rock.prm --output out --quiet");
+  const fs::path out = folder / "out";
   const auto series = read_result_folder(out, test_kinds());
   ASSERT_FALSE(series.front().tests.empty());
   for (const auto& test : series.front().tests)
@@ -278,15 +270,8 @@ void expect_fields(const TemporaryFolder& folder, const std::size_t least, const
 TEST(FieldFiles, OfAPlaneTestAreReadByVtk)
 {
   const TemporaryFolder folder;
-  folder.write("rock.prm", R"(subsection Specimen
-  set Width = 14 mm
-  set Height = 28 mm
-end
-subsection Tests
-  set List = uniaxial_compression
-  set Stop stress over peak = 0.7
-end
-)");
+  folder.write("rock.prm", section("Specimen", "Width = 14 mm", "Height = 28 mm") +
+                             section("Tests", "List = uniaxial_compression", "Stop stress over peak = 0.7"));
   expect_fields(folder, 16, 32);
 }
 
@@ -294,20 +279,11 @@ end
 TEST(FieldFiles, OfClumpsHaveTheNumbersOfTheirGroups)
 {
   const TemporaryFolder folder;
-  folder.write("rock.prm", R"(subsection Specimen
-  set Width = 14 mm
-  set Height = 28 mm
-end
-subsection Clumps
-  set Diameter = 4 mm
-end
-subsection Tests
-  set List = uniaxial_compression
-  set Stop stress over peak = 0.7
-end
-)");
+  folder.write("rock.prm", section("Specimen", "Width = 14 mm", "Height = 28 mm") +
+                             section("Clumps", "Diameter = 4 mm") +
+                             section("Tests", "List = uniaxial_compression", "Stop stress over peak = 0.7"));
   expect_fields(folder, 16, 32, "clump");
-  const auto grains = read_time_series(folder.path() / "out/fields/uniaxial_compression_seed_1_grains.pvd");
+  const auto grains = read_time_series(folder / "out/fields/uniaxial_compression_seed_1_grains.pvd");
   const auto& groups = grains.back().arrays.at("clump");
   std::size_t n_pairs = 0;
   for (std::size_t i = 0; i < groups.size(); ++i)
@@ -328,42 +304,21 @@ end
 TEST(FieldFiles, OfMineralGrainsHaveTheirNumbers)
 {
   const TemporaryFolder folder;
-  folder.write("rock.prm", R"(subsection Specimen
-  set Width = 14 mm
-  set Height = 28 mm
-end
-subsection Mineral grains
-  set Mean size = 5 mm
-end
-subsection Smooth joint
-  set Tensile strength = 10 MPa
-  set Cohesion = 80 MPa
-end
-subsection Tests
-  set List = direct_tension
-end
-)");
+  folder.write("rock.prm", section("Specimen", "Width = 14 mm", "Height = 28 mm") +
+                             section("Mineral grains", "Mean size = 5 mm") +
+                             section("Smooth joint", "Tensile strength = 10 MPa", "Cohesion = 80 MPa") +
+                             section("Tests", "List = direct_tension"));
   expect_fields(folder, 3, 32, "mineral_grain");
 }
 
 TEST(FieldFiles, OfATestInSpaceAreReadByVtk)
 {
   const TemporaryFolder folder;
-  folder.write("rock.prm", R"(subsection Specimen
-  set Dimension = 3
-  set Shape = cylinder
-  set Width = 6 mm
-  set Height = 8 mm
-  set Porosity = 0.42
-end
-subsection Tests
-  set List = triaxial_compression
-  set Confinements = 10 MPa
-  set Compression strain rate = 8 1/s
-  set Compression sampling strain = 1e-4
-  set Stop strain over peak strain = 1.1
-end
-)");
+  folder.write(
+    "rock.prm",
+    section("Specimen", "Dimension = 3", "Shape = cylinder", "Width = 6 mm", "Height = 8 mm", "Porosity = 0.42") +
+      section("Tests", "List = triaxial_compression", "Confinements = 10 MPa", "Compression strain rate = 8 1/s",
+              "Compression sampling strain = 1e-4", "Stop strain over peak strain = 1.1"));
   expect_fields(folder, 3, 32);
 }
 
@@ -401,16 +356,14 @@ double of_tensor(const Piece& piece, const std::string& name, const std::size_t 
 TEST(FieldFiles, OfASampleAreReadByVtk)
 {
   const TemporaryFolder folder;
-  const std::string sample = "subsection Sample\n  set Width = 20 mm\n  set Height = 40 mm\n  set Elements along = 2\n";
-  const std::string tests = "subsection Tests\n  set List = direct_tension\n  set Stop strain = 5e-5\nend\n";
-  const std::string elastic = "  set Material = linear elasticity\n  set Tension step = 1e-5\nend\n";
-  folder.write("plane.prm", sample +
-                              "  set Elements across = 1\n  set Realisations = 1\n  set Tension step = 1e-5\nend\n"
-                              "subsection Specimen\n  set Shape = periodic\n  set Width = 10 mm\n"
-                              "  set Height = 10 mm\nend\n" +
-                              tests);
-  folder.write("section.prm", sample + "  set Geometry = axisymmetric\n  set Elements across = 1\n" + elastic + tests);
-  folder.write("whole.prm", sample + "  set Geometry = cylinder\n  set Elements across = 3\n" + elastic + tests);
+  const std::string sample =
+    section("Sample", "Width = 20 mm", "Height = 40 mm", "Elements along = 2", "Tension step = 1e-5") +
+    section("Tests", "List = direct_tension", "Stop strain = 5e-5");
+  const std::string elastic = sample + section("Sample", "Material = linear elasticity");
+  folder.write("plane.prm", sample + section("Sample", "Elements across = 1", "Realisations = 1") +
+                              section("Specimen", "Shape = periodic", "Width = 10 mm", "Height = 10 mm"));
+  folder.write("section.prm", elastic + section("Sample", "Geometry = axisymmetric", "Elements across = 1"));
+  folder.write("whole.prm", elastic + section("Sample", "Geometry = cylinder", "Elements across = 3"));
   const std::string test = "direct_tension_seed_1";
   struct Body
   {
@@ -422,12 +375,10 @@ TEST(FieldFiles, OfASampleAreReadByVtk)
        {Body{"plane", "vtkQuad", 4}, Body{"section", "vtkQuad", 4}, Body{"whole", "vtkHexahedron", 8}})
     {
       const std::string& name = body.name;
-      const auto run =
-        run_without_pictures(folder.path(), fmt::format("multiscale {0}.prm --output {0} --quiet", name));
-      ASSERT_EQ(run.exit_code, 0) << run.error;
-      expect_sample(folder.path() / name, test, body.cell, body.n_nodes);
-      const SampleFields fields = read_sample_fields(folder.path() / name / "fields", test);
-      const Piece last = read_time_series(folder.path() / name / "fields" / (test + ".pvd")).back();
+      run_to_end(folder, fmt::format("multiscale {0}.prm --output {0} --quiet", name));
+      expect_sample(folder / name, test, body.cell, body.n_nodes);
+      const SampleFields fields = read_sample_fields(folder / name / "fields", test);
+      const Piece last = read_time_series(folder / name / "fields" / (test + ".pvd")).back();
       const auto near = [&](const std::string& field, const std::string& tensor, const std::size_t row,
                             const std::size_t column) {
         const auto& values = fields.of_each_cell.at(field);
@@ -449,7 +400,7 @@ TEST(FieldFiles, OfASampleAreReadByVtk)
       else
         near("stress_xy_Pa", "stress_Pa", 1, 0);
       EXPECT_EQ(last.arrays.contains("broken_segments_share"), std::string(name) == "plane");
-      EXPECT_TRUE(fs::exists(folder.path() / name / "fields" / (test + "_paraview.py")));
+      EXPECT_TRUE(fs::exists(folder / name / "fields" / (test + "_paraview.py")));
     }
 }
 } // namespace

@@ -1,19 +1,15 @@
 // The figures of docs/ are those that scripts/make-figures.py made, and show what stands in the committed results; pictures of
 // examples and benchmarks are of the results beside them.
 
+#include "tests/app/result_files.h"
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
@@ -27,25 +23,14 @@ namespace fs = std::filesystem;
 const fs::path root = FELDSPAR_SOURCE_DIR;
 const fs::path figures = root / "docs/figures";
 
-std::string text_of(const fs::path& file)
-{
-  std::ifstream in(file);
-  EXPECT_TRUE(in) << file;
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// In the order of the file: that of the series in a report.
-nlohmann::ordered_json record() { return nlohmann::ordered_json::parse(text_of(figures / "figures.json")); }
+nlohmann::ordered_json record() { return nlohmann::ordered_json::parse(content(figures / "figures.json")); }
 
 std::string sha256(const fs::path& file)
 {
-  FILE* const pipe = popen(("sha256sum '" + file.string() + "'").c_str(), "r");
-  std::array<char, 65> digits{};
-  const std::size_t n = pipe ? fread(digits.data(), 1, 64, pipe) : 0;
-  EXPECT_EQ(n, 64u) << "sha256sum of " << file;
-  if (pipe)
-    pclose(pipe);
-  return digits.data();
+  const Outcome outcome = run_command(TemporaryFolder(), "sha256sum '" + file.string() + "'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  return outcome.output.substr(0, 64);
 }
 
 /// The coordinates of a drawing, and what stands between them.
@@ -83,7 +68,7 @@ TEST(Figures, AreAllRecordedAndWereNotChangedByHand)
 
 TEST(Pictures, OfExamplesAndBenchmarksAreNotOlderThanTheirResults)
 {
-  const auto of_pictures = nlohmann::json::parse(text_of(root / "examples/pictures.json"));
+  const auto of_pictures = read_json(root / "examples/pictures.json");
   std::size_t n = 0;
   for (const char* const top : {"examples", "benchmarks"})
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top))
@@ -103,12 +88,12 @@ TEST(Pictures, OfExamplesAndBenchmarksAreNotOlderThanTheirResults)
 TEST(ThirdParty, FilesAreAsTheyWerePublished)
 {
   static const std::regex row(R"(\| \[[^|]*\| `([^`]+)` \| [0-9.]+ \| MIT, `([^`]+)` \| `([0-9a-f]{64})` \|)");
-  const std::string table = text_of(root / "third_party/README.md");
+  const std::string table = content(root / "third_party/README.md");
   std::size_t n = 0;
   for (std::sregex_iterator at(table.begin(), table.end(), row), end; at != end; ++at, ++n)
     {
       EXPECT_EQ(sha256(root / "third_party" / (*at)[1].str()), (*at)[3]) << (*at)[1];
-      EXPECT_NE(text_of(root / "third_party" / (*at)[2].str()).find("MIT"), std::string::npos) << (*at)[2];
+      EXPECT_TRUE(has_words(content(root / "third_party" / (*at)[2].str()), "MIT")) << (*at)[2];
     }
   EXPECT_EQ(n, 2u);
 }
@@ -120,10 +105,10 @@ TEST(Figures, OfRunsShowTheCommittedResults)
   for (const auto& [name, figure] : of_figures.items())
     if (figure.contains("tests"))
       {
-        const auto committed = nlohmann::json::parse(text_of(root / figure["results"].get<std::string>()));
+        const auto committed = read_json(root / figure["results"].get<std::string>());
         for (const auto& [test, shown] : figure["tests"].items())
           {
-            const auto of_name = [&test = test](const nlohmann::json& one) { return one["name"] == test; };
+            const auto of_name = [&test = test](const Json& one) { return one["name"] == test; };
             const auto& tests = committed["tests"];
             const auto found = std::find_if(tests.begin(), tests.end(), of_name);
             ASSERT_NE(found, tests.end()) << name << ": the committed results have no " << test;
@@ -151,14 +136,13 @@ TEST(Figures, OfReportsAreDrawnByTheProgramOfToday)
         std::string arguments = "report";
         for (const auto& [label, results] : figure["series"].items())
           {
-            fs::create_directories(folder.path() / label);
-            fs::copy_file(root / results.get<std::string>(), folder.path() / label / "summary.json");
+            fs::create_directories(folder / label);
+            fs::copy_file(root / results.get<std::string>(), folder / label / "summary.json");
             arguments += " '" + label + "'";
           }
-        const Outcome outcome = run_feldspar(folder.path(), arguments + " --output out");
-        ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-        const Drawing drawn = drawing_of(text_of(folder.path() / "out/figures/envelopes.svg"));
-        const Drawing committed = drawing_of(text_of(figures / name));
+        run_to_end(folder, arguments + " --output out", with_pictures);
+        const Drawing drawn = drawing_of(content(folder / "out/figures/envelopes.svg"));
+        const Drawing committed = drawing_of(content(figures / name));
         EXPECT_EQ(drawn.rest, committed.rest) << name;
         ASSERT_EQ(drawn.numbers.size(), committed.numbers.size()) << name;
         for (std::size_t i = 0; i < drawn.numbers.size(); ++i)

@@ -106,12 +106,6 @@ const std::set<std::string> scripts_that_run{
   "python3 examples/multiscale-and-grains/study.py build/release/app/feldspar",
 };
 
-std::vector<std::string> words_of(const std::string& text)
-{
-  std::istringstream in(text);
-  return {std::istream_iterator<std::string>(in), {}};
-}
-
 /// A line of a script without its comment, which begins with # outside of quotes, and without spaces about it.
 std::string bare(const std::string& line)
 {
@@ -215,10 +209,10 @@ TEST_P(CommandsOfPage, RunInPiecesOrAreListedWithAReason)
   const std::string& name = GetParam();
   const TemporaryFolder folder; // stands for the root of the tree
   for (const char* const part : {"docs", "examples"})
-    fs::copy(tree / part, folder.path() / part, fs::copy_options::recursive);
+    fs::copy(tree / part, folder / part, fs::copy_options::recursive);
   const fs::path in_pieces = tree / "tests/app/in_pieces";
-  fs::create_directories(folder.path() / "build/release/app");
-  fs::create_symlink(in_pieces / "feldspar", folder.path() / "build/release/app/feldspar");
+  fs::create_directories(folder / "build/release/app");
+  fs::create_symlink(in_pieces / "feldspar", folder / "build/release/app/feldspar");
 
   const auto found = circumstances.find(name);
   const Circumstances here = found == circumstances.end() ? Circumstances() : found->second;
@@ -226,7 +220,7 @@ TEST_P(CommandsOfPage, RunInPiecesOrAreListedWithAReason)
   if (here.pieces)
     environment += fmt::format("FELDSPAR_PIECE='{}' ", fmt::join(*here.pieces, "\n"));
   const auto run = [&](const std::string& commands) {
-    expect_to_run(folder.path(), commands, in_pieces, environment + "timeout 120");
+    expect_to_run(folder, commands, in_pieces, environment + "timeout 120");
   };
 
   const Page page = read_page(tree / name);
@@ -275,7 +269,7 @@ TEST(CommandsInSentences, AndTheirOptionsAreKnown)
           const auto words = words_of((*match)[1]);
           const std::string& command = words.at(1);
           if (!help.contains(command))
-            help[command] = run_feldspar(folder.path(), "help '" + command + "'");
+            help[command] = run_feldspar(folder, "help '" + command + "'");
           EXPECT_EQ(help[command].exit_code, 0) << name << ": " << (*match)[1] << "\n" << help[command].error;
           const auto known = words_of(help[command].output);
           for (const std::string& word : words)

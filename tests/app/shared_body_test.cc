@@ -1,76 +1,64 @@
+#include "tests/app/result_files.h"
 #include "tests/app/run_command.h"
-#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 /// `mpirun feldspar lab` with one body that all processes compute together.
-namespace feldspar
+namespace feldspar::tests
 {
 namespace
 {
 namespace fs = std::filesystem;
-using tests::mpirun;
-using tests::run_feldspar;
-using tests::run_without_pictures;
-using tests::TemporaryFolder;
 
 /// Some 200 grains.
-const std::string granite = "subsection Specimen\n  set Width = 16 mm\n  set Height = 32 mm\nend\n"
-                            "subsection Tests\n  set List = direct_tension, uniaxial_compression\n"
-                            "  set Steps between checkpoints = 2000\n  set Shared body = always\nend\n";
+const std::string granite = section("Specimen", "Width = 16 mm", "Height = 32 mm") +
+                            section("Tests", "List = direct_tension, uniaxial_compression",
+                                    "Steps between checkpoints = 2000", "Shared body = always");
 
-void expect_same_bytes(const fs::path& one, const fs::path& other)
-{
-  for (const std::string file :
-       {"cracks.csv", "emission.csv", "curves/direct_tension_seed_1.csv", "curves/uniaxial_compression_seed_1.csv",
-        "grains/direct_tension_seed_1.csv", "grains/uniaxial_compression_seed_1.csv"})
-    {
-      const std::string content = tests::content(one / file);
-      EXPECT_GT(content.size(), 500u) << file;
-      EXPECT_TRUE(content == tests::content(other / file)) << file << " of " << other;
-    }
-}
+const std::vector<std::string> of_both_tests{"cracks.csv",
+                                             "emission.csv",
+                                             "curves/direct_tension_seed_1.csv",
+                                             "curves/uniaxial_compression_seed_1.csv",
+                                             "grains/direct_tension_seed_1.csv",
+                                             "grains/uniaxial_compression_seed_1.csv"};
 
 TEST(SeveralRanks, ThatShareABodyHaveTheBytesOfOneProcessAlsoKilledAndResumedOnAnotherNumber)
 {
   const TemporaryFolder folder;
   folder.write("granite.prm", granite);
-  const auto expect_success = [](const tests::Outcome& outcome) { EXPECT_EQ(outcome.exit_code, 0) << outcome.error; };
-  expect_success(run_without_pictures(folder.path(), "lab granite.prm --output 1 --quiet"));
-  const auto of_four = run_feldspar(folder.path(), "lab granite.prm --output 4 --threads 1", mpirun(4));
-  expect_success(of_four);
+  run_to_end(folder, "lab granite.prm --output 1 --quiet");
+  for (const std::string& file : of_both_tests)
+    EXPECT_GT(content(folder / "1" / file).size(), 500u) << file;
+  const auto of_four = run_to_end(folder, "lab granite.prm --output 4 --threads 1", mpirun(4));
   EXPECT_EQ(of_four.error.find("2 tests of some "), of_four.error.rfind("2 tests of some "))
     << "the first rank says it";
-  EXPECT_NE(of_four.error.find(" steps by 4 processes together: about "), std::string::npos) << of_four.error;
-  expect_same_bytes(folder.path() / "1", folder.path() / "4");
+  EXPECT_TRUE(has_words(of_four.error, " steps by 4 processes together: about "));
+  expect_same_files(folder / "1", folder / "4", of_both_tests);
 
   // Killed in compression, which is the longer test and comes first.
-  folder.write("kill",
-               "\"$@\" &\nuntil [ -e 3/checkpoints/uniaxial_compression_seed_1.previous.h5 ]; do sleep 0.02; done\n"
-               "kill -KILL $(pgrep -P $! | tail -n 1)\nwait $!\n");
-  const auto killed =
-    run_feldspar(folder.path(), "lab granite.prm --output 3 --quiet --threads 1", "sh ./kill " + mpirun(3));
+  const auto killed = run_until(folder, "lab granite.prm --output 3 --quiet --threads 1",
+                                "[ -e 3/checkpoints/uniaxial_compression_seed_1.previous.h5 ]",
+                                "kill -KILL $(pgrep -P $! | tail -n 1)", mpirun(3));
   EXPECT_NE(killed.exit_code, 0);
-  EXPECT_FALSE(fs::exists(folder.path() / "3/summary.json"));
-  expect_success(run_feldspar(folder.path(), "lab --resume 3 --quiet --threads 2", mpirun(2)));
-  expect_same_bytes(folder.path() / "1", folder.path() / "3");
+  EXPECT_FALSE(fs::exists(folder / "3/summary.json"));
+  run_to_end(folder, "lab --resume 3 --quiet --threads 2", mpirun(2));
+  expect_same_files(folder / "1", folder / "3", of_both_tests);
 }
 
 TEST(SeveralRanks, ThatShareABodyEndTogetherWhenAsked)
 {
   const TemporaryFolder folder;
   folder.write("granite.prm", granite);
-  folder.write("ask", "\"$@\" &\nuntil [ -e out/checkpoints/uniaxial_compression_seed_1.h5 ]; do sleep 0.02; done\n"
-                      "kill -USR1 $!\nwait $!\n"); // which mpirun passes on to all
-  const auto asked =
-    run_feldspar(folder.path(), "lab granite.prm --output out --quiet --threads 1", "sh ./ask " + mpirun(2));
+  const auto asked = run_until(folder, "lab granite.prm --output out --quiet --threads 1",
+                               "[ -e out/checkpoints/uniaxial_compression_seed_1.h5 ]", "kill -USR1 $!",
+                               mpirun(2)); // which passes it on to all
   EXPECT_EQ(asked.exit_code, 130) << asked.error;
-  EXPECT_NE(asked.error.find("feldspar: interrupted; go on with: feldspar lab --resume out\n"), std::string::npos)
-    << asked.error;
+  EXPECT_TRUE(has_words(asked.error, "feldspar: interrupted; go on with: feldspar lab --resume out\n"));
 }
 } // namespace
-} // namespace feldspar
+} // namespace feldspar::tests

@@ -1,8 +1,8 @@
 #include "tests/fuzz/readers.h"
 
 #include "app/input/curves/laboratory_curve.h"
-#include "app/input/flaw_entries.h"
 #include "app/input/input.h"
+#include "app/input/input_entries.h"
 #include "app/input/maps/mineral_files.h"
 #include "app/input/maps/traces.h"
 #include "app/input/strain_path.h"
@@ -25,13 +25,13 @@
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/sample_fields.h"
+#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
@@ -304,12 +304,6 @@ void read_changed_specimen(const std::string& content, const fs::path& folder)
     dynamics.step();
 }
 
-std::string content_of(const fs::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 /// A file of which the content changes bytes: place, what to add to it.
 std::string changed_by(const std::string& content, std::string file)
 {
@@ -328,7 +322,7 @@ void read_changed_foreign_specimen(const std::string& content, const fs::path& f
   const fs::path file = folder / "foreign.h5";
   static const std::string whole = [&] {
     write_specimen(lattice<2>(), file);
-    std::string unsealed = content_of(file);
+    std::string unsealed = tests::content(file);
     unsealed.resize(unsealed.size() - seal_of("").size());
     const std::string another(seal_notice.size(), 'a');
     for (std::size_t at = 0; (at = unsealed.find(seal_notice, at)) != std::string::npos;)
@@ -365,7 +359,7 @@ void read_changed_checkpoint(const std::string& content, const fs::path& folder)
     LabTest<2> begun({uniaxial_compression}, specimen, {}, {});
     begun.advance();
     begun.write_checkpoint(file, "this one");
-    return content_of(file);
+    return tests::content(file);
   };
   static const std::string whole = written();
   const std::string changed = changed_by(content, whole);

@@ -1,3 +1,4 @@
+#include "tests/content.h"
 #include "tests/fuzz/readers.h"
 #include "tests/mutations.h"
 #include "tests/temporary_folder.h"
@@ -6,8 +7,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,10 +24,7 @@ std::map<fs::path, std::string> seeds_of(const FuzzedReader& reader)
 {
   std::map<fs::path, std::string> seeds;
   for (const auto& entry : fs::directory_iterator(fs::path(FELDSPAR_SOURCE_DIR) / "tests/fuzz/corpus" / reader.name))
-    {
-      std::ifstream file(entry.path(), std::ios::binary);
-      seeds[entry.path()] = {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    }
+    seeds[entry.path()] = content(entry.path());
   return seeds;
 }
 

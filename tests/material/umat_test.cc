@@ -25,7 +25,7 @@ constexpr const char* rock =
 
 std::string called(const TemporaryFolder& folder, const std::string& words)
 {
-  const auto outcome = run_command(folder.path(), "'" FELDSPAR_UMAT_CALLER "' -i job " + words);
+  const auto outcome = run_command(folder, "'" FELDSPAR_UMAT_CALLER "' -i job " + words);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output << outcome.error;
   return outcome.output;
 }
@@ -77,7 +77,7 @@ TEST_F(Umat, TakesTheWayOfTheLibrary)
 {
   constexpr int n = 40;
   const std::string rows = called(folder, "BEISHAN 1 1 40 40 1");
-  const feldspar::Input input((folder.path() / "beishan.prm").string());
+  const feldspar::Input input((folder / "beishan.prm").string());
   const feldspar::Rve intact(feldspar::Specimen(input, 1), input);
   for (int point = 1; point <= 4; ++point)
     {
@@ -143,7 +143,7 @@ TEST_F(Umat, TakesElementsOfAnyNumberInLittleMemory)
 {
   const std::string rows = called(folder, "BEISHAN 1 1 5 40 1");
   const auto outcome =
-    run_command(folder.path(), "ulimit -v 4000000 && '" FELDSPAR_UMAT_CALLER "' -i far BEISHAN 1 1 5 40 1 far");
+    run_command(folder, "ulimit -v 4000000 && '" FELDSPAR_UMAT_CALLER "' -i far BEISHAN 1 1 5 40 1 far");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output << outcome.error;
   EXPECT_EQ(outcome.output, rows);
 }
@@ -151,7 +151,7 @@ TEST_F(Umat, TakesElementsOfAnyNumberInLittleMemory)
 TEST_F(Umat, EndsTheJobWithOneSentence)
 {
   const auto refused = [&](const std::string& words, const std::string& sentence) {
-    const auto outcome = run_command(folder.path(), "'" FELDSPAR_UMAT_CALLER "' -i job " + words);
+    const auto outcome = run_command(folder, "'" FELDSPAR_UMAT_CALLER "' -i job " + words);
     EXPECT_EQ(outcome.exit_code, 201);
     EXPECT_NE(outcome.output.find(" *ERROR in FELDSPAR: " + sentence), std::string::npos) << outcome.output;
   };

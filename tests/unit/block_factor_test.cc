@@ -14,10 +14,8 @@ namespace feldspar
 {
 namespace
 {
-template <typename Case>
-class BlockFactors : public testing::Test
-{
-};
+template <typename>
+using BlockFactors = testing::Test;
 TYPED_TEST_SUITE(BlockFactors, Dimensions);
 
 /// Links whose gradients are any numbers, so that no block of the matrix is symmetric by itself. Some join a grain to an

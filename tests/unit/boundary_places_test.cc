@@ -1,6 +1,7 @@
 // Names of boundaries are held against where the boundaries lie, in meshes of every geometry.
 
-#include "fem/mesh/boundary_places.h"
+#include "fem/mesh/sample_mesh.h"
+#include "tests/words.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
@@ -19,6 +20,8 @@ namespace feldspar::fem
 {
 namespace
 {
+using tests::has;
+
 constexpr double width = 0.05;
 constexpr double height = 0.1;
 constexpr double thousandth = 1e-3 * width; // to which a place holds
@@ -31,16 +34,9 @@ SampleMesh<3> cylinder() { return cylinder_sample(MPI_COMM_WORLD, 0.5 * width, h
 template <int dim>
 std::string complaint(const SampleMesh<dim>& mesh, const bool is_in_r_z = false)
 {
-  try
-    {
-      check_places(mesh, is_in_r_z);
-    }
-  catch (const MeshError& error)
-    {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-  return "";
+  const std::string words = tests::refusal<MeshError>([&] { check_places(mesh, is_in_r_z); });
+  EXPECT_FALSE(has(words, "\n"));
+  return words;
 }
 
 /// With the names of two boundaries exchanged.
@@ -76,10 +72,7 @@ SampleMesh<dim> renamed(SampleMesh<dim> mesh, const std::string& name,
   return mesh;
 }
 
-void expect_words(const std::string& said, const std::string& words)
-{
-  EXPECT_NE(said.find(words), std::string::npos) << said;
-}
+void expect_words(const std::string& said, const std::string& words) { EXPECT_TRUE(has(said, words)); }
 } // namespace
 
 TEST(BoundaryPlaces, AreThoseOfOurOwnMeshes)

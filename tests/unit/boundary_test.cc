@@ -1,11 +1,11 @@
 // The boundaries of a representative volume: their order, their limits, and that what holds for the periodic one holds for
 // all.
 
-#include "coupling/network/stiffness_bounds.h"
+#include "coupling/network/network.h"
 #include "coupling/rve/path_run.h"
 #include "dem/genesis/coring.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"
+#include "tests/unit/taken_up.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -16,12 +16,8 @@ namespace feldspar
 {
 namespace
 {
-using tests::TemporaryFolder;
-
-template <typename Case>
-class Bounds : public testing::Test
-{
-};
+template <typename>
+using Bounds = testing::Test;
 TYPED_TEST_SUITE(Bounds, Dimensions);
 
 template <int dim>
@@ -102,10 +98,8 @@ TEST(Bounds, NarrowAsOneOverTheSize)
     }
 }
 
-template <typename Case>
-class Boundaries : public testing::Test
-{
-};
+template <typename>
+using Boundaries = testing::Test;
 TYPED_TEST_SUITE(Boundaries, Dimensions);
 
 // Each of these admits the motions of the next.
@@ -224,11 +218,7 @@ TYPED_TEST(Boundaries, OfAnEdgeLeaveItsSidesFree)
   constexpr int dim = TypeParam::value;
   RepresentativeVolume<dim> rve = small_rve<dim>(1, {.event_tolerance = 1e-8, .final_tolerance = 1e-11}, 0.5,
                                                  {.kind = BoundaryKind::edge, .free_axis = 0});
-  Control<dim> control;
-  control.strain = axial<dim>(1e-4); // beyond the first breaks
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    control.stress_given[k] = k != dim - 1;
-  const auto trial = rve.trial(control);
+  const auto trial = rve.trial(with_free_sides<dim>(1e-4)); // beyond the first breaks
   ASSERT_TRUE(trial.in_equilibrium);
   const auto forces = link_forces(rve.network(), trial.state).values;
   Unknowns borne = Unknowns::Zero(rve.network().n_unknowns());
@@ -268,12 +258,8 @@ TYPED_TEST(Boundaries, KeepTangentAndBalancesBeyondTheFirstCrack)
 template <int dim>
 PathRun<dim> pulled_under(const Boundary& boundary)
 {
-  Control<dim> control;
-  control.stress_given.fill(true);
-  control.stress_given[dim - 1] = false;
-  control.strain[dim - 1] = 3e-4;
   return {std::make_shared<const Network<dim>>(periodic_specimen<dim>(), Tensor<dim>::Identity(), boundary),
-          {{control, true}},
+          {{with_free_sides<dim>(3e-4), true}},
           {}};
 }
 
@@ -283,9 +269,7 @@ TYPED_TEST(Boundaries, KeepHillAndMandelAndTheEnergyThroughTheFall)
   for (const Boundary& boundary : all_boundaries<dim>())
     {
       SCOPED_TRACE(name(boundary));
-      PathRun<dim> run = pulled_under<dim>(boundary);
-      while (!run.has_ended())
-        run.advance();
+      const PathRun<dim> run = at_end(pulled_under<dim>(boundary));
       EXPECT_EQ(run.record().failure, "");
       EXPECT_GT(run.record().cracks.size(), 5u);
       double highest = 0.0;
@@ -337,24 +321,8 @@ TYPED_TEST(Boundaries, LetGoOfGrainsThatNothingHolds)
 TYPED_TEST(Boundaries, TakenUpGiveTheBitsOfTheUnbrokenRun)
 {
   constexpr int dim = TypeParam::value;
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "checkpoint.h5";
-  const Boundary boundary{.kind = BoundaryKind::weakly_periodic, .n_pieces = 2};
-  PathRun<dim> whole = pulled_under<dim>(boundary);
-  while (!whole.has_ended())
-    whole.advance();
-  PathRun<dim> broken = pulled_under<dim>(boundary);
-  for (unsigned int k = 0; !broken.has_ended(); ++k)
-    {
-      broken.advance();
-      if (k % 7 == 3)
-        {
-          broken.write_checkpoint(file, "the same");
-          PathRun<dim> next = pulled_under<dim>(boundary);
-          next.read_checkpoint(file, "the same");
-          broken = next;
-        }
-    }
+  const auto [whole, broken] =
+    tests::whole_and_taken_up([] { return pulled_under<dim>({.kind = BoundaryKind::weakly_periodic, .n_pieces = 2}); });
   EXPECT_GT(whole.record().cracks.size(), 5u);
   EXPECT_EQ(broken.rve().state().motions, whole.rve().state().motions);
   EXPECT_EQ(broken.rve().state().stress, whole.rve().state().stress);

@@ -86,8 +86,9 @@ TEST(Surrogate, KnowsAFunctionOutOfNoisyValuesAndHowWell)
 TEST(Metropolis, DrawsFromANormalDistributionAndKeepsToItsBounds)
 {
   // x_0 of variance 1, x_1 = x_0 + 0.1 of another; bounds cut x_0 at 0, which leaves a mean of sqrt(2/π).
-  const auto samples = metropolis([](const auto& x) { return -0.5 * (x[0] * x[0] + std::pow((x[1] - x[0]) / 0.1, 2)); },
-                                  {0.0, -9.0}, {9.0, 9.0}, {1.0, 1.0}, {{1.0, 1.0}, {1.0, 1.01}}, 8000, 3);
+  const auto samples =
+    metropolis([](const auto& x) { return -0.5 * (x[0] * x[0] + std::pow((x[1] - x[0]) / 0.1, 2)); }, {0.0, -9.0},
+               {9.0, 9.0}, {1.0, 1.0}, Eigen::MatrixXd{{1.0, 1.0}, {1.0, 1.01}}, 8000, 3);
   double mean = 0.0;
   double variance = 0.0;
   for (const auto& x : samples)

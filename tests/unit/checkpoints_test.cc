@@ -1,6 +1,7 @@
 #include "base/whole_file.h"
 #include "coupling/sample/checkpoints.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,6 +13,7 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
 using tests::TemporaryFolder;
 
 void write(const TemporaryFolder& folder, const std::uint64_t step, const std::size_t n)
@@ -46,15 +48,7 @@ using Names = std::vector<std::string>;
 
 std::string refusal(const std::filesystem::path& checkpoint, const std::string& identity = "mine")
 {
-  try
-    {
-      read(checkpoint, identity);
-    }
-  catch (const InputError& error)
-    {
-      return error.what();
-    }
-  return "";
+  return tests::refusal([&] { read(checkpoint, identity); });
 }
 
 TEST(Checkpoints, TheLastTwoAreKept)
@@ -86,7 +80,7 @@ TEST(Checkpoints, AreRefusedWhereTheyCannotBeTrusted)
   for (const auto left : {size - 1, size / 2, size / 10, std::uintmax_t(0)})
     {
       std::filesystem::resize_file(part, left);
-      EXPECT_NE(refusal(checkpoint).find("damaged or cut short"), std::string::npos) << left;
+      EXPECT_TRUE(has(refusal(checkpoint), "damaged or cut short")) << left;
     }
   // A byte that a disk changed, in the middle of the values.
   write(folder, 2, 10000);
@@ -97,7 +91,7 @@ TEST(Checkpoints, AreRefusedWhereTheyCannotBeTrusted)
   file.close();
   EXPECT_NE(refusal(folder.path() / "step-0000000002"), "");
   std::filesystem::remove(other);
-  EXPECT_NE(refusal(folder.path() / "step-0000000002").find("No such file"), std::string::npos);
+  EXPECT_TRUE(has(refusal(folder.path() / "step-0000000002"), "No such file"));
 }
 
 TEST(Checkpoints, AFullDiskLeavesTheOneBefore)
@@ -110,20 +104,10 @@ TEST(Checkpoints, AFullDiskLeavesTheOneBefore)
   rlimit low = before;
   low.rlim_cur = 50000; // bytes
   setrlimit(RLIMIT_FSIZE, &low);
-  std::string said;
-  try
-    {
-      write(folder, 2, 10000); // 80 kB
-    }
-  catch (const OutputError& error)
-    {
-      said = error.what();
-    }
+  const std::string said = tests::refusal<OutputError>([&] { write(folder, 2, 10000); }); // 80 kB
   setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_NE(said.find("part-00000.h5: cannot be written: File too large; what is kept is " +
-                      (folder.path() / "step-0000000001").string()),
-            std::string::npos)
-    << said;
+  EXPECT_TRUE(has(said, "part-00000.h5: cannot be written: File too large; what is kept is " +
+                          (folder.path() / "step-0000000001").string()));
   EXPECT_EQ(names(folder), Names{"step-0000000001"});
   EXPECT_EQ(read(folder.path() / "step-0000000001"), 1.0);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "unfinished")); // which would keep the disk full

@@ -10,6 +10,7 @@
 #include "laboratory/compression.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"
+#include "tests/unit/whole_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -22,10 +23,8 @@ namespace feldspar
 {
 namespace
 {
-template <typename Case>
-class Cores : public testing::Test
-{
-};
+template <typename>
+using Cores = testing::Test;
 TYPED_TEST_SUITE(Cores, Dimensions);
 
 template <int dim>
@@ -137,17 +136,6 @@ TEST(Core, WhatLosesItsLastJointToTheBodyIsRemoved)
   EXPECT_EQ(std::count(n_of_core.begin(), n_of_core.end(), 0u), std::count(n_of_cell.begin(), n_of_cell.end(), 0u));
 }
 
-SpecimenParameters cylinder(const double porosity)
-{
-  SpecimenParameters wanted;
-  wanted.dimension = 3;
-  wanted.shape = BodyShape::cylinder;
-  wanted.width = 0.010;
-  wanted.height = 0.010;
-  wanted.porosity = porosity;
-  return wanted;
-}
-
 /// Initial modulus by the gauge in the middle, of a uniaxial compression that breaks nothing.
 double initial_modulus(const Specimen<3>& specimen)
 {
@@ -155,10 +143,7 @@ double initial_modulus(const Specimen<3>& specimen)
   wanted.of<CompressionParameters>().strain_rate = 8.0;
   wanted.of<CompressionParameters>().sampling_strain = 2e-5;
   wanted.stop_strain = 2e-4;
-  LabTest<3> test({uniaxial_compression}, specimen, wanted, {});
-  while (test.advance())
-    ;
-  const auto curve = test.finish(false).record.curve;
+  const auto curve = tests::outcome_of<3>({uniaxial_compression}, specimen, wanted).record.curve;
   return curve.back().axial_stress / curve.back().gauge_axial_strain;
 }
 
@@ -169,10 +154,13 @@ TEST(Core, HasTheRockUpToItsSides)
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.05;
   // Walls leave voids beside them; so that the grains keep the radii of the input.
-  const auto walled = make_specimen<3>(cylinder(0.39), joint, {}, 1);
-  SpecimenParameters box = cylinder(0.36);
-  box.shape = BodyShape::periodic;
-  const auto cell = make_specimen<3>(box, joint, {}, 1);
+  SpecimenParameters wanted;
+  wanted.dimension = 3;
+  wanted.shape = BodyShape::cylinder;
+  wanted.width = wanted.height = 0.010;
+  wanted.porosity = 0.39;
+  const auto walled = make_specimen<3>(wanted, joint, {}, 1);
+  const auto cell = periodic_specimen<3>(1, 0.010);
   const auto core = cored(cell, BodyShape::cylinder);
   EXPECT_TRUE(core.is_round());
   for (std::size_t i = 0; i < core.grains.size(); ++i)
@@ -222,10 +210,7 @@ double modulus_of_core_over_cell(const double of_quartz, const double of_mica)
   wanted.shape = BodyShape::periodic;
   wanted.width = 0.03;
   wanted.height = 0.06;
-  FlatJointParameters joint;
-  joint.bond_tensile_strength *= 100.0; // nothing breaks
-  joint.bond_cohesion *= 100.0;
-  Specimen<2> cell = make_specimen<2>(wanted, joint, {}, 1);
+  Specimen<2> cell = make_specimen<2>(wanted, strengthened(FlatJointParameters(), 100.0), {}, 1); // nothing breaks
   MineralParameters minerals;
   for (const auto& [name, share, stiffness] : {std::tuple("quartz", 0.6, of_quartz), std::tuple("mica", 0.4, of_mica)})
     {

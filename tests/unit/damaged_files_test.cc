@@ -1,17 +1,18 @@
 #include "base/checksum/seal.h"
 #include "base/system/hdf5_archive.h"
 #include "base/whole_file.h"
-#include "base/write_at.h"
 #include "coupling/rve/path_run.h"
 #include "coupling/rve/rve_file.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
 #include "results/sample_fields.h"
+#include "tests/content.h"
 #include "tests/mutations.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -25,7 +26,6 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -35,41 +35,23 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
 using tests::Mutations;
+using tests::refusal;
 using tests::TemporaryFolder;
-
-std::string content_of(const std::filesystem::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// Message of the InputError that `read` throws; empty if it throws none. Any other exception fails the test.
-std::string refusal(const std::function<void()>& read)
-{
-  try
-    {
-      read();
-    }
-  catch (const InputError& error)
-    {
-      return error.what();
-    }
-  return "";
-}
 
 /// Every one of so many mutations of a file is reported by `read` in one line.
 void expect_all_refused(const std::filesystem::path& file, const std::function<void()>& read)
 {
   constexpr std::uint64_t n_mutations = 300;
-  const std::string whole = content_of(file);
+  const std::string whole = tests::content(file);
   ASSERT_EQ(refusal(read), "");
   for (std::uint64_t seed = 0; seed < n_mutations; ++seed)
     {
       std::ofstream(file, std::ios::binary) << Mutations(seed).of(whole);
       const std::string words = refusal(read);
       EXPECT_NE(words, "") << "mutation " << seed;
-      EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+      EXPECT_FALSE(has(words, "\n"));
     }
   std::ofstream(file, std::ios::binary) << whole;
   EXPECT_EQ(refusal(read), "");
@@ -90,7 +72,7 @@ TEST(Seal, SeesEveryChangeOfAFile)
     EXPECT_EQ(write_at(descriptor, 0, content), 0);
     return append_seal(descriptor);
   });
-  EXPECT_EQ(content_of(file), sealed);
+  EXPECT_EQ(tests::content(file), sealed);
   EXPECT_EQ(append_seal(-1), EBADF);
   EXPECT_EQ(examined("another file, without any"), Seal::none);
   EXPECT_EQ(examined(""), Seal::none);
@@ -116,15 +98,14 @@ TEST(Seal, KeepsSmallTextsToTheBit)
   const std::string content = "{\"seal\": \"" + std::string(seal_notice) + "\", \"values\": [1.25, null]}\n";
   write_sealed(file, content);
   EXPECT_EQ(read_sealed(file), content);
-  const std::string whole = content_of(file);
+  const std::string whole = tests::content(file);
   for (std::size_t at = 0; at < whole.size(); ++at)
     {
       std::string changed = whole;
       changed[at] = char(changed[at] ^ 1);
       folder.write("kept.json", changed);
-      EXPECT_NE(
-        refusal([&] { read_sealed(file); }).find("kept.json: damaged: content and checksum do not agree; remove"),
-        std::string::npos)
+      EXPECT_TRUE(
+        has(refusal([&] { read_sealed(file); }), "kept.json: damaged: content and checksum do not agree; remove"))
         << at;
     }
   folder.write("kept.json", whole.substr(0, whole.size() - 1));
@@ -158,7 +139,7 @@ TEST(DamagedFiles, CheckpointsOfTheLaboratoryAreRefused)
 /// Makes a file as a version from before seals wrote it: without a seal, and without the attribute that announces one.
 void unseal(const std::filesystem::path& file)
 {
-  std::string content = content_of(file);
+  std::string content = tests::content(file);
   content.resize(content.size() - seal_of("").size());
   const std::string another(seal_notice.size(), 'a');
   std::size_t n_notices = 0;
@@ -188,8 +169,8 @@ TEST(OlderFiles, SpecimensAreReadAndCheckpointsRefusedInOneLine)
   test.write_checkpoint(checkpoint, "this one");
   unseal(checkpoint);
   const std::string words = refusal([&] { test.read_checkpoint(checkpoint, "this one"); });
-  EXPECT_NE(words.find("not of this version of the program: it has no checksum"), std::string::npos) << words;
-  EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+  EXPECT_TRUE(has(words, "not of this version of the program: it has no checksum"));
+  EXPECT_FALSE(has(words, "\n"));
 }
 
 // The HDF5 library itself crashes or searches without end in some of these, in a process of its own.
@@ -199,12 +180,12 @@ TEST(DamagedFiles, SpecimensWithoutASealAreReadOrRefusedInOneLine)
   const auto file = folder.path() / "specimen.h5";
   write_specimen(small_specimen(), file);
   unseal(file);
-  const std::string whole = content_of(file);
+  const std::string whole = tests::content(file);
   constexpr std::uint64_t n_mutations = 100;
   for (std::uint64_t seed = 0; seed < n_mutations; ++seed)
     {
       std::ofstream(file, std::ios::binary) << Mutations(seed).of(whole);
-      EXPECT_EQ(refusal([&] { read_specimen<2>(file); }).find('\n'), std::string::npos) << seed;
+      EXPECT_FALSE(has(refusal([&] { read_specimen<2>(file); }), "\n")) << seed;
     }
 }
 
@@ -252,8 +233,8 @@ TEST(ForeignFiles, OnWhichTheLibraryCrashesOrFindsNoEndAreRefusedInOneLine)
     });
   };
   const auto says = [](const std::string& refused, const std::string& words) {
-    EXPECT_NE(refused.find("foreign.h5: " + words), std::string::npos) << refused;
-    EXPECT_EQ(refused.find('\n'), std::string::npos) << refused;
+    EXPECT_TRUE(has(refused, "foreign.h5: " + words));
+    EXPECT_FALSE(has(refused, "\n"));
   };
   says(words_of([] { raise(SIGFPE); }), "damaged: the HDF5 library fails on it (SIGFPE)");
   says(words_of([] { raise(SIGSEGV); }), "damaged: the HDF5 library fails on it (SIGSEGV)");
@@ -331,9 +312,7 @@ TEST(DamagedFiles, SpecimensThatCannotBeAreRefused)
     write_specimen(specimen, file);
     return refusal([&] { read_specimen<2>(file); });
   };
-  const auto says = [](const std::string& refused, const std::string& words) {
-    EXPECT_NE(refused.find(words), std::string::npos) << refused;
-  };
+  const auto says = [](const std::string& refused, const std::string& words) { EXPECT_TRUE(has(refused, words)); };
   using S = Specimen<2>;
   EXPECT_EQ(refusal_of([](S&) {}), "");
   says(refusal_of([](S& s) { s.joints.grain_2[3] = std::uint32_t(s.grains.size()); }), "a grain that is not there");
@@ -376,14 +355,13 @@ TEST(DamagedFiles, AnArrayIsNotLongerThanItsFile)
   const auto reading = [&](const std::function<void(Hdf5Reader&)>& use) {
     return refusal([&] { read_foreign_hdf5(file, "a test", use); });
   };
-  EXPECT_NE(reading([&](Hdf5Reader& root) { root.array("endless", read); }).find("longer than the file"),
-            std::string::npos);
+  EXPECT_TRUE(has(reading([&](Hdf5Reader& root) { root.array("endless", read); }), "longer than the file"));
   double one = 0.0;
-  EXPECT_NE(reading([&](Hdf5Reader& root) { root.value("several", one); }).find("not one value"), std::string::npos);
+  EXPECT_TRUE(has(reading([&](Hdf5Reader& root) { root.value("several", one); }), "not one value"));
   std::string text;
   EXPECT_NE(reading([&](Hdf5Reader& root) { root.text("several", text); }), "");
   // Read as one that this version wrote.
-  EXPECT_NE(refusal([&] { read_hdf5(file, "a test", [](Hdf5Reader&) {}); }).find("no checksum"), std::string::npos);
+  EXPECT_TRUE(has(refusal([&] { read_hdf5(file, "a test", [](Hdf5Reader&) {}); }), "no checksum"));
 }
 
 #if defined(__SANITIZE_ADDRESS__) // of g++
@@ -475,7 +453,7 @@ TEST(DamagedFiles, FieldsOfSamplesAreRefused)
   for (std::uint64_t seed = 0; seed < 300; ++seed)
     {
       folder.write("a.xdmf", Mutations(seed).of(index));
-      EXPECT_EQ(refusal(read).find('\n'), std::string::npos) << seed;
+      EXPECT_FALSE(has(refusal(read), "\n")) << seed;
     }
   folder.write("a.xdmf", std::string(index).replace(index.find("\"5\""), 3, "\"1e300\""));
   EXPECT_NE(refusal(read), "");
@@ -483,8 +461,7 @@ TEST(DamagedFiles, FieldsOfSamplesAreRefused)
   for (const auto& [name, shown] : {std::pair("../a.h5", "\"../a.h5\""), std::pair("a\xa0.h5", "\"a\\xa0.h5\"")})
     {
       folder.write("a.xdmf", std::string(index).replace(index.find("a.h5"), 4, name));
-      EXPECT_NE(refusal(read).find(std::string("a.xdmf: a DataItem names ") + shown), std::string::npos)
-        << refusal(read);
+      EXPECT_TRUE(has(refusal(read), std::string("a.xdmf: a DataItem names ") + shown));
     }
 }
 } // namespace

@@ -3,14 +3,13 @@
 #include "dem/lab/protocols/protocols.h"
 #include "tests/content.h"
 #include "tests/documentation_pages.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -77,7 +76,7 @@ TEST(Documentation, HasTheBodiesOfEveryLaboratoryTest)
   const auto yes_or_no = [](const bool yes) { return yes ? "yes" : "–"; };
   for (const auto* protocol : feldspar::laboratory_protocols())
     {
-      EXPECT_TRUE(protocol->set_up_2d && protocol->set_up_3d)
+      EXPECT_TRUE(protocol->set_up<2>() && protocol->set_up<3>())
         << protocol->kind.name; // as the sentence above the table says
       std::ostringstream row;
       row << yes_or_no(protocol->takes_cylinders) << " | " << yes_or_no(protocol->takes_clumps) << " | "
@@ -139,7 +138,7 @@ TEST(Documentation, EveryRoomStandsOnTheCodeMap)
       if (entry.path().extension() == ".h")
         {
           const std::string room = fs::relative(entry.path().parent_path(), root).string();
-          EXPECT_NE(map.find("`" + room + "`"), std::string::npos) << "docs/code-map.md has no line for " << room;
+          EXPECT_TRUE(feldspar::tests::has(map, "`" + room + "`")) << "docs/code-map.md has no line for " << room;
         }
 }
 

@@ -1,9 +1,9 @@
 // Acoustic emission as QuakeML, and as a laboratory records it.
 
 #include "app/input/curves/laboratory_curve.h"
-#include "base/input_error.h"
 #include "results/folder/quakeml.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
@@ -19,20 +19,14 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
 using tests::TemporaryFolder;
 
 void refuse(const std::function<void()>& work, const std::string& words)
 {
-  try
-    {
-      work();
-      ADD_FAILURE() << "is taken, not refused: " << words;
-    }
-  catch (const InputError& error)
-    {
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    }
+  const std::string said = tests::refusal(work);
+  EXPECT_TRUE(has(said, words));
+  EXPECT_FALSE(has(said, "\n"));
 }
 
 TEST(Quakeml, OriginsAreReadOrRefused)
@@ -136,9 +130,8 @@ TEST_F(QuakemlFile, OfABodyInSpaceHasXToTheEastAndYToTheNorth)
     shares +=
       element.select_node((std::string("focalMechanism/momentTensor/") + share).c_str()).node().text().as_double();
   EXPECT_NEAR(shares, 1.0, 1e-12);
-  EXPECT_NE(
-    std::string(element.select_node("comment/text").node().child_value()).find("breaks: 2 in tension, 1 in shear"),
-    std::string::npos);
+  EXPECT_TRUE(
+    has(std::string(element.select_node("comment/text").node().child_value()), "breaks: 2 in tension, 1 in shear"));
 }
 
 TEST_F(QuakemlFile, OfABodyInThePlaneHasYUp)

@@ -1,4 +1,5 @@
 #include "tests/unit/small_rve.h"
+#include "tests/unit/taken_up.h"
 
 #include "base/input_error.h"
 #include "coupling/rve/explicit_run.h"
@@ -22,21 +23,11 @@ ExplicitRun<2> explicit_run(const std::vector<PathLeg<2>>& legs, const std::uint
           {.steps_per_millistrain = steps_per_millistrain}};
 }
 
-PathLeg<2> pull_with_free_sides(const double strain)
-{
-  Control<2> control;
-  control.stress_given = {true, false, true};
-  control.strain[1] = strain;
-  return {control, true};
-}
-
 /// Largest over the path of |σ - C_0 ε| over the stress at its end.
 double largest_error(const std::uint64_t steps_per_millistrain)
 {
   const Voigt<2> strain(-2e-5, 5e-5, 3e-5); // nothing breaks: the weakest bond fails at some 1e-4
-  auto run = explicit_run({{strain_control<2>(strain), false}}, steps_per_millistrain);
-  while (!run.has_ended())
-    run.advance();
+  const auto run = at_end(explicit_run({{strain_control<2>(strain), false}}, steps_per_millistrain));
   const Network<2> network(periodic_specimen());
   double largest = 0.0;
   for (const auto& sample : run.record().samples)
@@ -62,30 +53,14 @@ TEST(ExplicitRun, ApproachesTheStiffnessOfTheNetworkAsItsRateFalls)
 
 TEST(ExplicitRun, TakenUpGivesTheBitsOfTheUnbrokenRun)
 {
-  const std::vector<PathLeg<2>> legs{pull_with_free_sides(2e-4), pull_with_free_sides(1e-4)};
-  auto whole = explicit_run(legs, 10000);
-  while (!whole.has_ended())
-    whole.advance();
+  const std::vector<PathLeg<2>> legs{{with_free_sides<2>(2e-4), true}, {with_free_sides<2>(1e-4), true}};
+  const auto begin = [&] { return explicit_run(legs, 10000); };
+  const auto [whole, broken] = tests::whole_and_taken_up(begin);
   EXPECT_GT(whole.record().cracks.size(), 5u);
   // Were the boundary's work taken from the mean stress of all contacts, which is not its traction out of equilibrium, 5 %
   // would be missing.
   for (const auto& sample : whole.record().samples)
     EXPECT_LT(sample.energy_imbalance(), 0.01);
-
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "checkpoint.h5";
-  auto broken = explicit_run(legs, 10000);
-  for (unsigned int k = 0; !broken.has_ended(); ++k)
-    {
-      broken.advance();
-      if (k % 4 == 3)
-        {
-          broken.write_checkpoint(file, "the same");
-          auto next = explicit_run(legs, 10000);
-          next.read_checkpoint(file, "the same");
-          broken = std::move(next);
-        }
-    }
   ASSERT_EQ(broken.record().samples.size(), whole.record().samples.size());
   for (std::size_t k = 0; k < whole.record().samples.size(); ++k)
     {
@@ -99,7 +74,11 @@ TEST(ExplicitRun, TakenUpGivesTheBitsOfTheUnbrokenRun)
       EXPECT_EQ(one.boundary_stress_error, other.boundary_stress_error) << k;
     }
   ASSERT_EQ(broken.record().cracks.size(), whole.record().cracks.size());
-  auto other = explicit_run(legs, 10000);
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  auto other = begin();
+  other.advance();
+  other.write_checkpoint(file, "the same");
   EXPECT_THROW(other.read_checkpoint(file, "another"), InputError);
 }
 
@@ -138,9 +117,7 @@ TEST(ExplicitRun, SaysWhenAStressCannotBeHeld)
   Control<2> control;
   control.stress_given.fill(true);
   control.stress[1] = 60e6;
-  auto run = explicit_run({{control, false}}, 10000);
-  while (!run.has_ended())
-    run.advance();
+  const auto run = at_end(explicit_run({{control, false}}, 10000));
   EXPECT_EQ(run.record().failure.find("the given stress could not be held at stress_xx = 0 MPa, stress_yy = "), 0u)
     << run.record().failure;
 }

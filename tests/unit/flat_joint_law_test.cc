@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -291,69 +292,63 @@ TEST(Friction, ShearUnderAnEdgeWhileTheMiddleIsOpenIsSlip)
   EXPECT_NEAR(update.slip_energy, 0.5 * limit * slip * segment.area(), 1e-12 * limit * slip);
 }
 
-TEST(Law, RespondsAPackAsItsMembers)
+/// Bit for bit: the sweep's vector lanes and the single contact are the same arithmetic.
+template <int dim>
+void expect_pack_as_its_members(const Segment<dim, double>& one, const Segment<dim, simd::Pack>& packed_one)
 {
-  // Bit for bit: the sweep's vector lanes and the single contact are the same arithmetic.
   using simd::Pack;
-  const Segment<2, Pack> packed_segment{segment.normal_stiffness, segment.shear_stiffness, segment.length,
-                                        segment.thickness, segment.friction};
   const Bond<Pack> bonds{table_1.tensile_strength, table_1.cohesion, table_1.friction_slope};
   for (int k = 0; k < 200; ++k)
     {
       const auto gap_before = [k](const int i) { return 1e-7 * std::sin(1.0 + 3.7 * k + i); };
       const auto gap = [k](const int i) { return 1.2e-6 * std::sin(2.0 + 1.3 * k + i); };
-      const auto slope = [k](const int i) { return 2e-3 * std::sin(3.0 + 2.1 * k + i); };
-      const auto slip = [k](const int i) { return 1.5e-5 * std::sin(4.0 + 0.7 * k + i); };
-      const auto tau = [k](const int i) { return 3e7 * std::sin(5.0 + 1.9 * k + i); };
+      const auto slope = [k](const int i) { return dim == 2 ? 2e-3 * std::sin(3.0 + 2.1 * k + i) : 0.0; };
+      const auto slip_1 = [k](const int i) { return 1.5e-5 * std::sin(4.0 + 0.7 * k + i); };
+      const auto slip_2 = [k](const int i) { return 1.5e-5 * std::sin(0.5 + 2.3 * k + i); };
+      const auto tau_1 = [k](const int i) { return 3e7 * std::sin(5.0 + 1.9 * k + i); };
+      const auto tau_2 = [k](const int i) { return 3e7 * std::cos(2.0 + 0.4 * k + i); };
       const auto bonded = [k](const int i) { return (k + i) % 3 != 0; };
+      // Along the one axis of the line or both of the plane.
+      const auto across = [](const auto& first, [[maybe_unused]] const auto& second) {
+        if constexpr (dim == 2)
+          return std::array{first};
+        else
+          return std::array{first, second};
+      };
       const Pack bonded_number([&](const auto i) { return double(bonded(i)); });
-      const auto packed = flat_joint::update<2, Pack>(packed_segment, bonds, {{Pack(tau)}, bonded_number > 0.5},
-                                                      {Pack(gap_before), Pack(gap), Pack(slope), {Pack(slip)}});
+      const auto packed =
+        flat_joint::update<dim, Pack>(packed_one, bonds, {across(Pack(tau_1), Pack(tau_2)), bonded_number > 0.5},
+                                      {Pack(gap_before), Pack(gap), Pack(slope), across(Pack(slip_1), Pack(slip_2))});
       for (int i = 0; i < int(Pack::size()); ++i)
         {
-          const auto single = flat_joint::update<2, double>(segment, table_1, {{tau(i)}, bonded(i)},
-                                                            {gap_before(i), gap(i), slope(i), {slip(i)}});
-          EXPECT_EQ(double(packed.state.shear_stress[0][i]), single.state.shear_stress[0]);
+          const auto single =
+            flat_joint::update<dim, double>(one, table_1, {across(tau_1(i), tau_2(i)), bonded(i)},
+                                            {gap_before(i), gap(i), slope(i), across(slip_1(i), slip_2(i))});
+          for (int c = 0; c < dim - 1; ++c)
+            EXPECT_EQ(double(packed.state.shear_stress[c][i]), single.state.shear_stress[c]);
           EXPECT_EQ(bool(packed.state.bonded[i]), single.state.bonded);
           EXPECT_EQ(double(packed.normal.force[i]), single.normal.force);
-          EXPECT_EQ(double(packed.normal.moment[i]), single.normal.moment);
+          if constexpr (dim == 2)
+            {
+              EXPECT_EQ(double(packed.normal.moment[i]), single.normal.moment);
+            }
           EXPECT_EQ(double(packed.slip_energy[i]), single.slip_energy);
           EXPECT_EQ(double(packed.released_energy[i]), single.released_energy);
         }
     }
 }
 
+TEST(Law, RespondsAPackAsItsMembers)
+{
+  expect_pack_as_its_members<2>(
+    segment, {segment.normal_stiffness, segment.shear_stiffness, segment.length, segment.thickness, segment.friction});
+}
+
 TEST(Law, RespondsAPackAsItsMembersInThreeDimensions)
 {
-  using simd::Pack;
   const Segment<3, double> element{face.normal_stiffness, face.shear_stiffness, 1e-7, 0.5};
-  const Segment<3, Pack> packed_element{element.normal_stiffness, element.shear_stiffness, element.element_area, 0.5};
-  const Bond<Pack> bonds{table_1.tensile_strength, table_1.cohesion, table_1.friction_slope};
-  for (int k = 0; k < 200; ++k)
-    {
-      const auto gap_before = [k](const int i) { return 1e-7 * std::sin(1.0 + 3.7 * k + i); };
-      const auto gap = [k](const int i) { return 1.2e-6 * std::sin(2.0 + 1.3 * k + i); };
-      const auto slip_1 = [k](const int i) { return 1.5e-5 * std::sin(4.0 + 0.7 * k + i); };
-      const auto slip_2 = [k](const int i) { return 1.5e-5 * std::sin(0.5 + 2.3 * k + i); };
-      const auto tau_1 = [k](const int i) { return 3e7 * std::sin(5.0 + 1.9 * k + i); };
-      const auto tau_2 = [k](const int i) { return 3e7 * std::cos(2.0 + 0.4 * k + i); };
-      const auto bonded = [k](const int i) { return (k + i) % 3 != 0; };
-      const Pack bonded_number([&](const auto i) { return double(bonded(i)); });
-      const auto packed =
-        flat_joint::update<3, Pack>(packed_element, bonds, {{Pack(tau_1), Pack(tau_2)}, bonded_number > 0.5},
-                                    {Pack(gap_before), Pack(gap), Pack(0.0), {Pack(slip_1), Pack(slip_2)}});
-      for (int i = 0; i < int(Pack::size()); ++i)
-        {
-          const auto single = flat_joint::update<3, double>(element, table_1, {{tau_1(i), tau_2(i)}, bonded(i)},
-                                                            {gap_before(i), gap(i), 0.0, {slip_1(i), slip_2(i)}});
-          for (int c = 0; c < 2; ++c)
-            EXPECT_EQ(double(packed.state.shear_stress[c][i]), single.state.shear_stress[c]);
-          EXPECT_EQ(bool(packed.state.bonded[i]), single.state.bonded);
-          EXPECT_EQ(double(packed.normal.force[i]), single.normal.force);
-          EXPECT_EQ(double(packed.slip_energy[i]), single.slip_energy);
-          EXPECT_EQ(double(packed.released_energy[i]), single.released_energy);
-        }
-    }
+  expect_pack_as_its_members<3>(element,
+                                {element.normal_stiffness, element.shear_stiffness, element.element_area, 0.5});
 }
 
 TEST(AngleTurned, IsExactFromMicroradiansToHalfATurn)

@@ -1,9 +1,9 @@
 #include "fem/mesh/gmsh_mesh.h"
 
-#include "base/input_error.h"
 #include "fem/mesh/sample_mesh.h"
 #include "tests/mutations.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
@@ -16,13 +16,14 @@
 #include <iterator>
 #include <string>
 #include <utility>
-#include <vector>
 
 /// Meshes read by Gmsh's library, and damaged ones that deal.II must not see.
 namespace feldspar::fem
 {
 namespace
 {
+using tests::has;
+
 /// Two unit squares side by side, in each of Gmsh's formats; line 7 is the right side.
 const std::string squares_2_2 = R"($MeshFormat
 2.2 0 8
@@ -155,15 +156,7 @@ $EndElements
 std::string complaint(const std::string& content, const int dimension = 2)
 {
   const tests::TemporaryFolder folder;
-  try
-    {
-      read_gmsh_mesh(folder.write("mesh.msh", content), dimension);
-    }
-  catch (const InputError& error)
-    {
-      return error.what();
-    }
-  return "";
+  return tests::refusal([&] { read_gmsh_mesh(folder.write("mesh.msh", content), dimension); });
 }
 
 std::string with(std::string text, const std::string& old, const std::string& other)
@@ -234,15 +227,10 @@ TEST(GmshMesh, GivesGroupsTheNamesThatTheUserMaps)
   EXPECT_EQ(length_of("top", {{"top", {"9"}}}), 1.0);
   EXPECT_EQ(length_of("side", {{"side", {"bottom", "right", "9"}}}), 4.0);
   EXPECT_EQ(length_of("bottom", {{"bottom", {"right"}}, {"right", {"bottom"}}}), 1.0); // exchanged
-  try
-    {
-      length_of("top", {{"top", {"roof"}}});
-      FAIL();
-    }
-  catch (const MeshError& error)
-    {
-      EXPECT_STREQ(error.what(), "no boundary is named roof; the mesh has 9, bottom, right");
-    }
+  EXPECT_EQ(tests::refusal<MeshError>([&] {
+              length_of("top", {{"top", {"roof"}}});
+            }),
+            "no boundary is named roof; the mesh has 9, bottom, right");
 }
 
 // The cells of both squares are the group rock; a surface that is in a second group too has no single rock.
@@ -252,16 +240,8 @@ TEST(GmshMesh, GivesCellsTheirGroups)
   const auto mesh = read_gmsh<2>(MPI_COMM_WORLD, folder.write("mesh.msh", squares_2_2), 0);
   for (const auto& cell : mesh.triangulation->active_cell_iterators())
     EXPECT_EQ(cell->material_id(), mesh.group("rock"));
-  const auto complaint_on = [](const SampleMesh<2>& of, const std::string& group) -> std::string {
-    try
-      {
-        of.group(group);
-        return "";
-      }
-    catch (const MeshError& error)
-      {
-        return error.what();
-      }
+  const auto complaint_on = [](const SampleMesh<2>& of, const std::string& group) {
+    return tests::refusal<MeshError>([&] { of.group(group); });
   };
   EXPECT_EQ(complaint_on(mesh, "seam"), "no group of cells is named seam; the mesh has rock");
   const std::string both = with(squares_4_1, "1 0 0 0 2 1 0 0 1 3", "1 0 0 0 2 1 0 2 5 8 1 3");
@@ -362,16 +342,11 @@ TEST(GmshMesh, NoDamagedMeshCrashesTheReader)
   const tests::TemporaryFolder folder;
   const auto refused = [&](const std::string& text, const int dimension) {
     const auto file = folder.write("mesh.msh", text);
-    try
-      {
-        dimension == 2 ? void(read_gmsh<2>(MPI_COMM_WORLD, file, 0)) : void(read_gmsh<3>(MPI_COMM_WORLD, file, 0));
-      }
-    catch (const MeshError& error)
-      {
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-        return true;
-      }
-    return false;
+    const std::string words = tests::refusal<MeshError>([&] {
+      dimension == 2 ? void(read_gmsh<2>(MPI_COMM_WORLD, file, 0)) : void(read_gmsh<3>(MPI_COMM_WORLD, file, 0));
+    });
+    EXPECT_FALSE(has(words, "\n"));
+    return words != "";
   };
   constexpr std::uint64_t n_mutations = 30;
   std::uint64_t n_refused = 0;

@@ -6,6 +6,7 @@
 #include "report/pictures/plot_style.h"
 #include "tests/content.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -157,11 +157,8 @@ TEST(GnuplotText, IsWrittenIntoPicturesAsItIsShown)
       const std::string words = shown(texts[k]);
       if (words.empty())
         continue;
-      std::size_t n = 0;
-      const std::string all = unescaped(svg);
-      for (std::size_t at = 0; (at = all.find(words, at)) != std::string::npos; at += words.size())
-        ++n;
-      EXPECT_GE(n, 7u) << words; // three axes, the title of all, those of two lines and a text beside them
+      EXPECT_GE(times(unescaped(svg), words), 7u)
+        << words; // three axes, the title of all, those of two lines and a text beside them
     }
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
     EXPECT_NE(entry.path().filename(), "marker");

@@ -2,10 +2,10 @@
 
 #include "app/input/maps/traces.h"
 #include "app/input/strain_path.h"
-#include "base/input_error.h"
 #include "base/table/csv.h"
 #include "laboratory/loading_stages.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
@@ -18,20 +18,14 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
+
 class HeaderUnits : public testing::Test
 {
 protected:
   void refuse(const std::function<void()>& read, const std::string& words) const
   {
-    try
-      {
-        read();
-        ADD_FAILURE() << "is read, not refused: " << words;
-      }
-    catch (const InputError& error)
-      {
-        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-      }
+    EXPECT_TRUE(has(tests::refusal(read), words));
   }
 
   std::vector<PathLeg<2>> path(const std::string& text) const

@@ -136,7 +136,7 @@ TEST(InputWords, AreFoundWhereTheyAre)
 TEST(InputWords, OfLibrariesAreThoseOfTheInput)
 {
   for (const input_entries::EntryName& name : input_entries::all)
-    EXPECT_NE(find_parameter(name.section, name.entry), nullptr) << name.text();
+    EXPECT_NE(find_parameter(name.text()), nullptr) << name.text();
   EXPECT_EQ(in_words(parameter_id<&SpecimenParameters::minimum_radius>()), "Specimen/Minimum radius");
   EXPECT_EQ(entry_in_words(parameter_id<&SpecimenParameters::height>()), "Height");
   EXPECT_EQ(in_words(parameter_id<&SofteningFlatJointParameters::coordination_number, SofteningFlatJointParameters>()),

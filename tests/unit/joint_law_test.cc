@@ -149,14 +149,8 @@ static_assert(JointLaw<FlatJoint<2>, 2> && JointLaw<FlatJoint<3>, 3>);
 static_assert(!JointLaw<CarriedPlane<2>, 2>, "moving with its grains alone makes no law");
 static_assert(!JointLaw<FlatJoint<2>, 3>, "a law of the plane is none of space");
 
-template <typename Dimension>
-class JointLawBoundary : public testing::Test
-{
-};
-
-template <int n>
-using Dimension = std::integral_constant<int, n>;
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+template <typename>
+using JointLawBoundary = testing::Test;
 TYPED_TEST_SUITE(JointLawBoundary, Dimensions);
 
 /// Grains in a row along x that are just in contact; more than two packs of joints and some over.

@@ -6,13 +6,14 @@
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/unit/whole_tests.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <string>
 #include <string_view>
 #include <variant>
 
@@ -20,6 +21,7 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
 using tests::TemporaryFolder;
 
 /// A compression curve with known answers: modulus 70 GPa to 50 MPa, then 35 GPa to the peak of 100 MPa, then down;
@@ -153,7 +155,7 @@ TEST(LabResults, OfAPlaneThatSlidesAreItsStrengthAndItsDilation)
   EXPECT_NEAR(*results.dilation_angle.value, std::atan(0.1), 1e-6);
 
   record.curve[60].lateral_stress = -3e6;
-  EXPECT_NE(evaluate(record).dilation_angle.reason.find("lost half of the normal stress"), std::string::npos);
+  EXPECT_TRUE(has(evaluate(record).dilation_angle.reason, "lost half of the normal stress"));
   record.curve.resize(22); // the last tenth rises by 5 % and more
   EXPECT_EQ(evaluate(record).peak_stress.reason,
             "the stress never peaked: it was still rising when the test ended; the highest was 5 MPa");
@@ -188,8 +190,7 @@ TEST(LabResults, OfAcousticEmissionAreTheKinksOfHitsAndOfTheirEnergy)
   ASSERT_TRUE(results.crack_initiation_stress_emission.value) << results.crack_initiation_stress_emission.reason;
   EXPECT_NEAR(*results.crack_initiation_stress_emission.value, 60e6, 1.0);
   EXPECT_NEAR(*results.crack_damage_stress_emission.value, 100e6, 1.0);
-  EXPECT_NE(evaluate(kinked_compression()).crack_damage_stress_emission.reason.find("never lags behind"),
-            std::string::npos);
+  EXPECT_TRUE(has(evaluate(kinked_compression()).crack_damage_stress_emission.reason, "never lags behind"));
 }
 
 TEST(LabResults, SayWhenLateralStrainTellsNoCrackInitiation)
@@ -197,11 +198,11 @@ TEST(LabResults, SayWhenLateralStrainTellsNoCrackInitiation)
   TestRecord record = kinked_compression();
   for (auto& row : record.curve) // grows ever more slowly against the stress: never behind a straight line
     row.gauge_lateral_strain = std::sqrt(row.gauge_lateral_strain);
-  EXPECT_NE(evaluate(record).crack_initiation_stress_lateral.reason.find("never lags behind"), std::string::npos);
+  EXPECT_TRUE(has(evaluate(record).crack_initiation_stress_lateral.reason, "never lags behind"));
   record.kind = direct_tension.kind;
   for (auto& row : record.curve)
     row.axial_stress *= -1.0;
-  EXPECT_NE(evaluate(record).crack_initiation_stress_lateral.reason.find("compression only"), std::string::npos);
+  EXPECT_TRUE(has(evaluate(record).crack_initiation_stress_lateral.reason, "compression only"));
 }
 
 TEST(LabResults, SayWhyWhenACurveNeverPeaks)
@@ -249,11 +250,10 @@ TEST(LabResults, OfATestBeforeItsPeakHaveTheElasticConstantsBeforeTheFirstCrack)
   EXPECT_NEAR(*evaluate(record).youngs_modulus_initial.value, 70e9, 1e-6 * 70e9);
   // A body that cracks under stresses which waves bring about too has no elastic part.
   record.peak_demands.least_stress = 43e6;
-  EXPECT_NE(
-    evaluate(record).poissons_ratio_initial.reason.find("; too little of the curve lies before the first crack"),
-    std::string::npos);
+  EXPECT_TRUE(
+    has(evaluate(record).poissons_ratio_initial.reason, "; too little of the curve lies before the first crack"));
   record.interrupted = true;
-  EXPECT_NE(evaluate(record).youngs_modulus_initial.reason.find("interrupted"), std::string::npos);
+  EXPECT_TRUE(has(evaluate(record).youngs_modulus_initial.reason, "interrupted"));
 }
 
 TEST(LabResults, SayWhenTheCurveIsTooCoarseForAModulus)
@@ -265,7 +265,7 @@ TEST(LabResults, SayWhenTheCurveIsTooCoarseForAModulus)
   record.curve = coarse;
   const auto results = evaluate(record);
   EXPECT_FALSE(results.youngs_modulus_initial.value);
-  EXPECT_NE(results.youngs_modulus_initial.reason.find("sampling strain"), std::string::npos);
+  EXPECT_TRUE(has(results.youngs_modulus_initial.reason, "sampling strain"));
 }
 
 TEST(Energies, OfALaboratoryTestBalanceAndADoubledTermShows)
@@ -427,10 +427,7 @@ TEST(Curve, LateralStressIsTheMeanSinceTheRowBefore)
     TestParameters wanted;
     wanted.of<CompressionParameters>().sampling_strain = sampling_strain;
     wanted.stop_strain = 4e-4;
-    LabTest<2> test({triaxial_compression, 10e6}, specimen, wanted, {});
-    while (test.advance())
-      ;
-    return test.finish(false).record.curve;
+    return tests::outcome_of<2>({triaxial_compression, 10e6}, specimen, wanted).record.curve;
   };
   const auto fine = curve(1e-5);
   const auto coarse = curve(2e-5);
@@ -456,7 +453,7 @@ TEST(Seating, TakesTheTransitsAskedForAndWastesLessTheLongerItTakes)
     {
       TestParameters wanted;
       wanted.seating_transits = n_transits;
-      const auto seated = triaxial_compression.set_up_2d.value()(specimen, 30e6, wanted, {});
+      const auto seated = triaxial_compression.set_up<2>().value()(specimen, 30e6, wanted, {});
       auto dynamics = seated.dynamics;
       seated.loading.seat(dynamics, [] {});
       EXPECT_GE(dynamics.time(), 1.5 * n_transits * transit);

@@ -8,12 +8,12 @@
 #include "results/evaluation.h"
 #include "tests/unit/small_specimen.h"
 #include "tests/unit/taken_up.h"
+#include "tests/unit/whole_tests.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace feldspar::tests
@@ -22,15 +22,6 @@ namespace
 {
 constexpr double far_from_breaking = 1e3; // times the strength of the bonds
 constexpr double earth = 9.81;            // [m/s²]
-
-template <int dim>
-TestOutcome outcome(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted)
-{
-  LabTest<dim> running(test, specimen, wanted, {});
-  while (running.advance())
-    ;
-  return running.finish(false);
-}
 
 template <int dim>
 TestParameters on_a_plate(const double friction)
@@ -81,7 +72,7 @@ void expect_own_weight_and_sliding(const Specimen<dim>& specimen, const double f
   const auto& grains = specimen.grains;
   const double height = specimen.size[dim - 1];
   const double area = specimen.volume() / height;
-  const TestRecord record = outcome<dim>({tilt}, specimen, on_a_plate<dim>(friction)).record;
+  const TestRecord record = outcome_of<dim>({tilt}, specimen, on_a_plate<dim>(friction)).record;
 
   // Under its own weight σ = ρ g h at the plate, and halfway up that of the grains above.
   const CurveSample& level = record.curve.front();
@@ -146,7 +137,7 @@ TEST(Tilt, ALooseGrainKeepsNoBodyFromRest)
       const auto n_loose = std::size_t(std::ranges::count(is_part, false));
       if (n_loose == 0)
         continue;
-      const TestRecord record = outcome<2>({tilt}, specimen, on_a_plate<2>(0.3)).record;
+      const TestRecord record = outcome_of<2>({tilt}, specimen, on_a_plate<2>(0.3)).record;
       EXPECT_EQ(record.specimen.n_grains, specimen.grains.size() - n_loose);
       const double weight = record.bulk_density * earth * specimen.size[1];
       EXPECT_NEAR(-record.curve.front().lateral_stress, weight, 1e-3 * weight);
@@ -162,7 +153,7 @@ TEST(Gravity, PutsTheWeightOnTheLowerPlatenOfAnyTest)
   TestParameters wanted = on_a_plate<2>(0.0);
   wanted.gravity.back() = -1e5;
   wanted.stop_strain = 1e-3;
-  const TestRecord record = outcome<2>(uniaxial, small_specimen(1, far_from_breaking), wanted).record;
+  const TestRecord record = outcome_of<2>(uniaxial, small_specimen(1, far_from_breaking), wanted).record;
   const double weight = record.bulk_density * 1e5 * 0.020;
   EXPECT_NEAR(record.curve.back().end_stress_difference, weight, 0.01 * weight);
   EXPECT_LT(record.curve.back().energies.imbalance(), 1e-3);
@@ -180,11 +171,11 @@ TEST(Machine, AndSpecimenAreTwoSpringsInARow)
       auto& own = wanted.of<CompressionParameters>();
       own.sampling_strain = 1e-5;
       const auto specimen = small_specimen(1, far_from_breaking);
-      const double modulus = slope(outcome(test, specimen, wanted).record, from, to, shortening_of);
+      const double modulus = slope(outcome_of(test, specimen, wanted).record, from, to, shortening_of);
       for (const double stiffness : {0.1, 1.0, 100.0}) // over that of the specimen
         {
           own.machine_stiffness = stiffness * modulus * 0.012 / 0.020;
-          const TestRecord record = outcome(test, specimen, wanted).record;
+          const TestRecord record = outcome_of(test, specimen, wanted).record;
           const auto crosshead = [&](const CurveSample& row) { return own.strain_rate * row.time; };
           const double of_both = modulus / (1.0 + 1.0 / stiffness);
           EXPECT_NEAR(slope(record, from, to, crosshead), of_both, 1e-3 * of_both);
@@ -201,7 +192,7 @@ TEST(Machine, ThatIsSoftCrushesABodyThatAStiffOneFollows)
     TestParameters wanted = quick_compression();
     wanted.of<CompressionParameters>().machine_stiffness = stiffness * 60e9 * 0.012 / 0.020;
     wanted.stop_stress_over_peak = 0.3;
-    const TestRecord record = outcome<2>(uniaxial, small_specimen(), wanted).record;
+    const TestRecord record = outcome_of<2>(uniaxial, small_specimen(), wanted).record;
     const auto lowest_before = std::ranges::min_element(record.curve, {}, &CurveSample::axial_stress);
     const auto fallen_to = [&](const double share) {
       return *std::find_if(lowest_before, record.curve.end(), [&](const CurveSample& row) {
@@ -229,7 +220,7 @@ TEST(LoadControl, RaisesTheStressAtTheRateItSays)
                                      {LoadingRate{LoadingRate::Of::force, 0.7e6 * 0.012, ""}, 1.6e11}})
     for (const LaboratoryCase& test : {uniaxial, confined})
       {
-        const TestOutcome made = outcome(test, small_specimen(), load_controlled(rate));
+        const TestOutcome made = outcome_of(test, small_specimen(), load_controlled(rate));
         const TestResults results = evaluate(made.record);
         ASSERT_TRUE(results.peak_stress.value);
         const double peak = *results.peak_stress.value;
@@ -257,7 +248,7 @@ TEST(LoadingRate, ThatIsTooHighIsNamedAsTheCause)
 {
   // At 5000/s the ends alone bring 2 ρ c · 5000/s · 20 mm = 2.9 GPa, more than any body of these grains holds.
   TestParameters wanted = load_controlled({LoadingRate::Of::travel, 5e3 * 0.020, ""});
-  const TestRecord fast = outcome<2>(uniaxial, small_specimen(), wanted).record;
+  const TestRecord fast = outcome_of<2>(uniaxial, small_specimen(), wanted).record;
   EXPECT_EQ(fast.failure.find("the rate, 5e+03 1/s, is too high: waves alone bring about 2.9"), 0u) << fast.failure;
 }
 
@@ -266,13 +257,13 @@ TEST(LoadingRate, OfTheTravelIsOneOfTheStrain)
   // 0.1 mm/min on 20 mm are 8.3e-5 1/s; the walls of the packing are its platens.
   TestParameters wanted = load_controlled({LoadingRate::Of::travel, 0.1e-3 / 60.0, ""});
   wanted.stop_strain = 1e-3;
-  const TestRecord slow = outcome<2>(uniaxial, small_specimen(), wanted).record;
+  const TestRecord slow = outcome_of<2>(uniaxial, small_specimen(), wanted).record;
   const double of_laboratory = 0.1e-3 / 60.0 / 0.020;
   EXPECT_DOUBLE_EQ(slow.strain_rate, 2.0);
   EXPECT_NEAR(slow.rate_over_laboratory, 2.0 / of_laboratory, 1e-9 * 2.0 / of_laboratory);
   EXPECT_TRUE(std::isnan(slow.stress_rate));
   wanted.of<CompressionParameters>().loading_rate->value = 0.06; // faster than the run has to be: 3/s
-  const TestRecord fast = outcome<2>(uniaxial, small_specimen(), wanted).record;
+  const TestRecord fast = outcome_of<2>(uniaxial, small_specimen(), wanted).record;
   EXPECT_NEAR(fast.strain_rate, 3.0, 1e-12);
   EXPECT_DOUBLE_EQ(fast.rate_over_laboratory, 1.0);
 }

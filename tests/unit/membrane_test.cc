@@ -8,6 +8,7 @@
 #include "results/evaluation.h"
 #include "tests/unit/same_bits.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/unit/whole_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -143,10 +144,7 @@ template <int dim>
 void expect_stronger_under_it(const Specimen<dim>& specimen, TestParameters wanted)
 {
   const auto run = [&](const LaboratoryCase& test_case) {
-    LabTest<dim> test(test_case, specimen, wanted, {});
-    while (test.advance())
-      ;
-    return test.finish(false).record;
+    return tests::outcome_of<dim>(test_case, specimen, wanted).record;
   };
   wanted.of<ConfinementParameters>().lateral_boundary = LateralBoundary::membrane;
   const auto record = run({triaxial_compression, 20e6});
@@ -184,7 +182,7 @@ TEST(Membrane, HoldsTheIntermediateStressOfABox)
   wanted.of<ConfinementParameters>().intermediate_stress = 40e6;
   const auto box = small_cylinder(1, 1e3, BodyShape::box);
   EXPECT_EQ(LabTest<3>({triaxial_compression, 10e6}, box, wanted, {}).finish(true).record.intermediate_stress, 40e6);
-  auto set_up = triaxial_compression.set_up_3d.value()(box, 10e6, wanted, {});
+  auto set_up = triaxial_compression.set_up<3>().value()(box, 10e6, wanted, {});
   set_up.loading.seat(set_up.dynamics, [] {});
   const Vector<3> first(0.5 * box.size);
   double inwards[2] = {0.0, 0.0}; // moments of the displacement

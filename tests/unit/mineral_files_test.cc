@@ -1,8 +1,8 @@
 #include "app/input/input.h"
 #include "app/input/maps/mineral_files.h"
-#include "base/input_error.h"
 #include "tests/content.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -18,23 +18,11 @@ namespace feldspar
 {
 namespace
 {
-std::string words_of_refusal(const std::function<void()>& read)
-{
-  try
-    {
-      read();
-    }
-  catch (const InputError& error)
-    {
-      return error.what();
-    }
-  return "";
-}
+using tests::has;
 
 void expect_words(const std::function<void()>& read, const std::string& words)
 {
-  EXPECT_NE(words_of_refusal(read).find(words), std::string::npos)
-    << "not: " << words << "\n    " << words_of_refusal(read);
+  EXPECT_TRUE(has(tests::refusal(read), words));
 }
 
 /// A PNG of one colour.

@@ -1,4 +1,3 @@
-#include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/mineral_gauge.h"
 #include "dem/lab/protocols/protocols.h"
@@ -8,6 +7,8 @@
 #include "results/minerals.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/unit/whole_tests.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
@@ -23,6 +24,8 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
+
 constexpr double milli = 1e-3;
 
 Mineral mineral(const std::string& name, const double share, const double size, const JointRatios& within = {})
@@ -357,25 +360,15 @@ TEST(Minerals, ComeBackFromAFile)
 
 TEST(Minerals, ThatDoNotFitAreRefused)
 {
-  const auto refusal = [](const MineralParameters& wanted) -> std::string {
-    try
-      {
-        make_rock<2>(plate(wanted), 1);
-      }
-    catch (const InputError& error)
-      {
-        return error.what();
-      }
-    return "";
+  const auto refusal = [](const MineralParameters& wanted) {
+    return tests::refusal([&] { make_rock<2>(plate(wanted), 1); });
   };
   MineralParameters wanted = granite();
   wanted.minerals[2].size = 0.5 * milli;
-  EXPECT_NE(refusal(wanted).find(
-              "0.5 mm of mica: must be at least two mean diameters of the particles that make up a mineral grain"),
-            std::string::npos)
-    << refusal(wanted);
+  EXPECT_TRUE(has(refusal(wanted),
+                  "0.5 mm of mica: must be at least two mean diameters of the particles that make up a mineral grain"));
   wanted.minerals[2].size = 40 * milli;
-  EXPECT_NE(refusal(wanted).find("must be at most"), std::string::npos) << refusal(wanted);
+  EXPECT_TRUE(has(refusal(wanted), "must be at most"));
 }
 
 /// The same rock in a homogeneous deformation u = G x, with a rotation.
@@ -444,10 +437,7 @@ TEST(Minerals, ShareCracksAndStress)
   RockParameters rock = plate(granite({1.0, 0.1, 0.1, 1.0}));
   rock.specimen.height = 20 * milli;
   const auto specimen = make_rock<2>(rock, 1);
-  LabTest<2> test({uniaxial_compression}, specimen, quick_compression(), {});
-  while (test.advance())
-    ;
-  const auto outcome = test.finish(false);
+  const auto outcome = tests::outcome_of<2>({uniaxial_compression}, specimen, quick_compression());
   const auto& cracks = outcome.record.cracks;
   ASSERT_GT(cracks.size(), 100u);
   const Snapshot& snapshot = outcome.appearance.snapshots.at(outcome.appearance.snapshots.size() / 2);

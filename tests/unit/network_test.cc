@@ -16,10 +16,8 @@ namespace feldspar
 {
 namespace
 {
-template <typename Case>
-class Networks : public testing::Test
-{
-};
+template <typename>
+using Networks = testing::Test;
 TYPED_TEST_SUITE(Networks, Dimensions);
 
 /// C of a body turned by R, component by component.

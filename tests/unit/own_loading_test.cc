@@ -8,6 +8,9 @@
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
 #include "tests/unit/staged_runs.h"
+#include "tests/unit/taken_up.h"
+#include "tests/unit/whole_tests.h"
+#include "tests/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace feldspar::tests
 {
@@ -26,18 +28,8 @@ constexpr double unbreakable = 1e3; // times the strength of the bonds
 std::string error_of(const std::string& table)
 {
   const TemporaryFolder folder;
-  const std::string file = (folder.path() / "stages.csv").string();
-  std::ofstream(file) << table;
-  try
-    {
-      read_loading_stages(file);
-    }
-  catch (const InputError& error)
-    {
-      const std::string what = error.what();
-      return what.substr(what.find("stages.csv"));
-    }
-  return "";
+  const std::string what = refusal([&] { read_loading_stages(folder.write("stages.csv", table)); });
+  return what.substr(what.find("stages.csv"));
 }
 
 TEST(OwnLoading, OfAnElasticSpecimenReturnsOnItsLine)
@@ -214,17 +206,9 @@ TEST(OwnLoading, IsTakenUpAgainInTheMiddleOfAStageToTheSameBits)
   const auto file = folder.path() / "checkpoint.h5";
   const auto specimen = small_specimen(1, unbreakable);
   const auto wanted = following({{.axial_strain = 3e-4}, {.axial_stress = 2e6}, {.axial_strain = 2e-4}});
-  LabTest<2> whole({own_loading}, specimen, wanted, {});
-  for (int k = 0; k < 40; ++k) // 30 rows of the first stage, then of the second
-    ASSERT_TRUE(whole.advance());
-  whole.write_checkpoint(file, "a test");
-  LabTest<2> part({own_loading}, specimen, wanted, {});
-  part.read_checkpoint(file, "a test");
-  while (whole.advance())
-    ;
-  while (part.advance())
-    ;
+  auto [whole, part] = whole_and_taken_up([&] { return LabTest<2>({own_loading}, specimen, wanted, {}); });
   ASSERT_EQ(part.curve().size(), whole.curve().size());
+  part.write_checkpoint(file, "a test");
   EXPECT_EQ(part.curve().back().axial_stress, whole.curve().back().axial_stress);
   const auto of_part = part.finish(false).record.stages;
   const auto of_whole = whole.finish(false).record.stages;
@@ -243,10 +227,7 @@ TEST(OwnLoading, KeepsAsManyStatesAsAreWantedAndTheEnd)
   for (const unsigned int n : {2u, 5u, 32u, 1000u})
     {
       wanted.n_snapshots = n;
-      LabTest<2> test({own_loading}, specimen, wanted, {});
-      while (test.advance())
-        ;
-      const auto outcome = test.finish(false);
+      const auto outcome = outcome_of<2>({own_loading}, specimen, wanted);
       const auto& kept = outcome.appearance.snapshots;
       EXPECT_LE(kept.size(), n);
       EXPECT_GE(2 * kept.size(), std::min<std::size_t>(n, outcome.record.curve.size()));
@@ -280,9 +261,8 @@ TEST(OwnLoading, OfACylinderFollowsItsTableToo)
 TEST(LoadingTable, KeepsTheConfinementOfTheRowAboveWhereACellIsEmpty)
 {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "stages.csv";
-  std::ofstream(file) << "axial_strain,axial_stress_Pa,hold_s,confining_pressure_Pa\n1e-3,,,5e6\n,20e6,1e-4,\n,8e6,,\n";
-  const auto stages = read_loading_stages(file);
+  const auto stages = read_loading_stages(folder.write(
+    "stages.csv", "axial_strain,axial_stress_Pa,hold_s,confining_pressure_Pa\n1e-3,,,5e6\n,20e6,1e-4,\n,8e6,,\n"));
   ASSERT_EQ(stages.size(), 3u);
   EXPECT_EQ(stages[2].confining_pressure, 5e6);
   EXPECT_EQ(stages[1].duration, 1e-4);

@@ -21,14 +21,8 @@ constexpr std::size_t n_pairs = 2 * pack_width + 3; // packs, and some over
 
 const ParticleContactParameters contact{60e9, 1.5, 0.4};
 
-template <typename Dimension>
-class ParallelBondPair : public testing::Test
-{
-};
-
-template <int n>
-using Dimension = std::integral_constant<int, n>;
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+template <typename>
+using ParallelBondPair = testing::Test;
 TYPED_TEST_SUITE(ParallelBondPair, Dimensions);
 
 /// Pairs along x, far from each other, that are just in contact.
@@ -107,6 +101,23 @@ void move_pair(Specimen<dim>& specimen, const std::size_t pair, const double ope
   set<n_rotations<dim>>(grains.spin, 2 * pair + 1, Rotation<dim>(both + one / (one + two) * turn));
 }
 
+/// Sweeps the pairs: one break of each bond that is strained beyond its strength, all in this mode.
+template <int dim>
+void expect_breaks(Specimen<dim>& specimen, const bool in_tension)
+{
+  const auto breaks = sweep_joints(specimen.joints, specimen.grains, 1.0);
+  std::size_t n_broken = 0;
+  for (std::size_t k = 0; k < n_pairs; ++k)
+    {
+      n_broken += share(k) > 1.0;
+      EXPECT_EQ(specimen.joints.holds(k), share(k) < 1.0);
+    }
+  ASSERT_EQ(breaks.size(), n_broken);
+  ASSERT_GT(n_broken, 0u);
+  for (const Break& event : breaks)
+    EXPECT_EQ(event.in_tension, in_tension);
+}
+
 TYPED_TEST(ParallelBondPair, PulledBearsItsTensileStrengthThenNothing)
 {
   constexpr int dim = TypeParam::value;
@@ -115,20 +126,13 @@ TYPED_TEST(ParallelBondPair, PulledBearsItsTensileStrengthThenNothing)
   const double strength = test_bonds().bond_tensile_strength;
   for (std::size_t k = 0; k < n_pairs; ++k)
     move_pair(specimen, k, share(k) * strength / Beam<dim>(specimen, k).normal_stiffness, 0.0, Rotation<dim>::Zero());
-  const auto breaks = sweep_joints(specimen.joints, specimen.grains, 1.0);
-  std::size_t n_broken = 0;
+  expect_breaks(specimen, true);
   for (std::size_t k = 0; k < n_pairs; ++k)
     {
       const double pull = share(k) * strength * Beam<dim>(specimen, k).area;
       const double round_off = 1e-8 * pull; // of openings as differences of positions
       EXPECT_NEAR(-force_of(specimen, k)[0], share(k) < 1.0 ? pull : 0.0, round_off);
-      n_broken += share(k) > 1.0;
-      EXPECT_EQ(specimen.joints.holds(k), share(k) < 1.0);
     }
-  ASSERT_EQ(breaks.size(), n_broken) << "one break of each bond";
-  ASSERT_GT(n_broken, 0u);
-  for (const Break& event : breaks)
-    EXPECT_TRUE(event.in_tension);
 
   // Pressed back beyond rest: where the bond has broken the contact alone acts, else both.
   for (std::size_t k = 0; k < n_pairs; ++k)
@@ -157,15 +161,11 @@ TYPED_TEST(ParallelBondPair, BentBreaksAtTheEdgeAndThenRollsFreely)
   axis[n_rotations<dim> - 1] = 1.0;
   for (std::size_t k = 0; k < n_pairs; ++k)
     move_pair<dim>(specimen, k, -pressed, 0.0, share(k) * angle(Beam<dim>(specimen, k)) * axis);
-  const auto breaks = sweep_joints(specimen.joints, specimen.grains, 1.0);
-  for (const Break& event : breaks)
-    EXPECT_TRUE(event.in_tension);
-  std::size_t n_broken = 0;
+  expect_breaks(specimen, true);
   for (std::size_t k = 0; k < n_pairs; ++k)
     {
       const Beam<dim> beam(specimen, k);
       const bool holds = share(k) < 1.0;
-      n_broken += !holds;
       const double moment = beam.normal_stiffness * beam.second_moment * share(k) * angle(beam);
       const auto& couple = specimen.joints.couple_2[n_rotations<dim> - 1];
       EXPECT_NEAR(couple[k], holds ? -moment : 0.0, 1e-9 * moment);
@@ -173,8 +173,6 @@ TYPED_TEST(ParallelBondPair, BentBreaksAtTheEdgeAndThenRollsFreely)
                   beam.contact_normal_stiffness * pressed + (holds ? beam.normal_stiffness * beam.area * pressed : 0.0),
                   1e-7 * beam.contact_normal_stiffness * pressed);
     }
-  EXPECT_EQ(breaks.size(), n_broken);
-  EXPECT_GT(n_broken, 0u);
 }
 
 TEST(ParallelBondInSpace, TwistedBreaksAtTheRimAndThenSpinsFreely)
@@ -187,20 +185,14 @@ TEST(ParallelBondInSpace, TwistedBreaksAtTheRimAndThenSpinsFreely)
   };
   for (std::size_t k = 0; k < n_pairs; ++k)
     move_pair<3>(specimen, k, 0.0, 0.0, share(k) * angle(Beam<3>(specimen, k)) * Rotation<3>::UnitX());
-  const auto breaks = sweep_joints(specimen.joints, specimen.grains, 1.0);
-  for (const Break& event : breaks)
-    EXPECT_FALSE(event.in_tension);
-  std::size_t n_broken = 0;
+  expect_breaks(specimen, false);
   for (std::size_t k = 0; k < n_pairs; ++k)
     {
       const Beam<3> beam(specimen, k);
-      n_broken += share(k) > 1.0;
       const double moment = beam.shear_stiffness * beam.polar_moment * share(k) * angle(beam);
       EXPECT_NEAR(specimen.joints.couple_2[0][k], share(k) < 1.0 ? -moment : 0.0, 1e-10 * moment);
       EXPECT_NEAR(specimen.joints.couple_1[0][k], share(k) < 1.0 ? moment : 0.0, 1e-10 * moment);
     }
-  EXPECT_EQ(breaks.size(), n_broken);
-  EXPECT_GT(n_broken, 0u);
 }
 
 TYPED_TEST(ParallelBondPair, ShearedUnderPressureBreaksByCoulombAndLeavesTheFrictionOfTheContact)
@@ -216,10 +208,7 @@ TYPED_TEST(ParallelBondPair, ShearedUnderPressureBreaksByCoulombAndLeavesTheFric
   };
   for (std::size_t k = 0; k < n_pairs; ++k)
     move_pair<dim>(specimen, k, -pressed, share(k) * slip(Beam<dim>(specimen, k)), Rotation<dim>::Zero());
-  const auto breaks = sweep_joints(specimen.joints, specimen.grains, 1.0);
-  for (const Break& event : breaks)
-    EXPECT_FALSE(event.in_tension);
-  std::size_t n_broken = 0;
+  expect_breaks(specimen, false);
   for (std::size_t k = 0; k < n_pairs; ++k)
     {
       const Beam<dim> beam(specimen, k);
@@ -227,7 +216,6 @@ TYPED_TEST(ParallelBondPair, ShearedUnderPressureBreaksByCoulombAndLeavesTheFric
       const double of_contact =
         std::min(beam.contact_shear_stiffness * way, contact.friction * beam.contact_normal_stiffness * pressed);
       const double of_bond = share(k) < 1.0 ? beam.shear_stiffness * beam.area * way : 0.0;
-      n_broken += share(k) > 1.0;
       EXPECT_NEAR(-force_of(specimen, k)[1], of_contact + of_bond, 1e-8 * (of_contact + of_bond));
       // Slid so far under its limit, from nothing: half of that is the mean force.
       const double slid = way - of_contact / beam.contact_shear_stiffness;
@@ -236,8 +224,6 @@ TYPED_TEST(ParallelBondPair, ShearedUnderPressureBreaksByCoulombAndLeavesTheFric
       EXPECT_NEAR(specimen.joints.couple_1[n_rotations<dim> - 1][k] + specimen.joints.couple_2[n_rotations<dim> - 1][k],
                   (of_contact + of_bond) * specimen.joints.rest_distance[k], 1e-3 * (of_contact + of_bond) * 1e-3);
     }
-  EXPECT_EQ(breaks.size(), n_broken);
-  EXPECT_GT(n_broken, 0u);
 }
 
 /// The model once more, written plainly and with increments as the source has them; one pair.
@@ -326,17 +312,13 @@ struct PlainPair
   }
 };
 
-/// The elements of one face, for the law alone.
 template <int dim>
-struct OneFace
+OneFace<dim> bonded_face(const ParallelBondParameters& bonds)
 {
-  Bond<double> strength;
-  typename ParallelBond<dim>::template Update<double> update{};
-
-  Bond<double> bond(unsigned int) const { return strength; }
-  const auto& state(unsigned int) const { return update.state; }
-  void set(unsigned int, const typename ParallelBond<dim>::template Update<double>& now) { update = now; }
-};
+  OneFace<dim> face{{bonds.bond_tensile_strength, bonds.bond_cohesion, std::tan(bonds.bond_friction_angle)}};
+  face.update.state.bonded = true;
+  return face;
+}
 
 TYPED_TEST(ParallelBondPair, WanderingAgreesWithAPlainProgramAndKeepsItsEnergy)
 {
@@ -346,8 +328,7 @@ TYPED_TEST(ParallelBondPair, WanderingAgreesWithAPlainProgramAndKeepsItsEnergy)
   const ParallelBond<dim> law(bonds, contact);
   const Face<double> face = specimen.joints.face(0);
   const Beam<dim> beam(specimen, 0);
-  OneFace<dim> elements{{bonds.bond_tensile_strength, bonds.bond_cohesion, std::tan(bonds.bond_friction_angle)}};
-  elements.update.state.bonded = true;
+  auto elements = bonded_face<dim>(bonds);
   PlainPair<dim> plain(beam, bonds);
 
   constexpr int n_steps = 4000;
@@ -479,22 +460,10 @@ TYPED_TEST(ParallelBondPair, SmallStrainsSeeTheSameStiffnessAndStrength)
   Motion<dim> pressed = Motion<dim>::Constant(1e-5); // turns
   pressed[0] = -1e-7;
   pressed.template segment<dim - 1>(1).setConstant(1e-9);
-  FaceMotion<dim, double> motion{};
-  motion.opening = pressed[0];
-  for (int c = 0; c < dim - 1; ++c)
-    motion.slip_increment[c] = pressed[1 + c];
-  for (int c = 0; c < n_rotations<dim>; ++c)
-    motion.rotation[c] = pressed[dim + c];
-  OneFace<dim> elements{{bonds.bond_tensile_strength, bonds.bond_cohesion, std::tan(bonds.bond_friction_angle)}};
-  elements.update.state.bonded = true;
-  const auto sum = law.template update<double>(face, specimen.joints.elements, motion, elements);
+  auto elements = bonded_face<dim>(bonds);
+  const Motion<dim> forces =
+    forces_of<dim>(law.template update<double>(face, specimen.joints.elements, step_to<dim>(pressed), elements));
   ASSERT_TRUE(elements.update.state.bonded);
-  Motion<dim> forces;
-  forces[0] = -sum.normal_force;
-  for (int c = 0; c < dim - 1; ++c)
-    forces[1 + c] = -sum.shear_force[c];
-  for (int c = 0; c < n_rotations<dim>; ++c)
-    forces[dim + c] = -sum.moment[c];
   EXPECT_LT((stiffness * pressed - forces).norm(), 1e-12 * forces.norm());
 
   const Bond<double> bond = elements.strength;
@@ -511,16 +480,8 @@ TYPED_TEST(ParallelBondPair, SmallStrainsSeeTheSameStiffnessAndStrength)
           }
         for (const double part : {0.999, 1.001})
           {
-            FaceMotion<dim, double> to{};
-            const double factor = part * path.factor * direction;
-            if (c == 0)
-              to.opening = factor;
-            else if (c < dim)
-              to.slip_increment[c - 1] = factor;
-            else
-              to.rotation[c - dim] = factor;
-            OneFace<dim> fresh{bond};
-            fresh.update.state.bonded = true;
+            const auto to = step_to<dim>(part * path.factor * unit);
+            auto fresh = bonded_face<dim>(bonds);
             law.template update<double>(face, specimen.joints.elements, to, fresh);
             EXPECT_EQ(fresh.update.state.bonded, part < 1.0) << c;
             EXPECT_EQ(fresh.update.tension_break, part > 1.0 && path.in_tension) << c;

@@ -5,6 +5,8 @@
 #include "coupling/rve/path_run.h"
 #include "coupling/rve/path_sample.h"
 #include "tests/temporary_folder.h"
+#include "tests/unit/taken_up.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +20,11 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
 using tests::TemporaryFolder;
 
-template <typename Case>
-class Paths : public testing::Test
-{
-};
+template <typename>
+using Paths = testing::Test;
 TYPED_TEST_SUITE(Paths, Dimensions);
 
 template <int dim>
@@ -32,11 +33,9 @@ PathRun<dim> pull(const double strain = 3e-4, const Kinematics kinematics = Kine
 {
   PathParameters parameters;
   parameters.equilibrium.kinematics = kinematics;
-  Control<dim> control;
-  control.stress_given.fill(true);
-  control.stress_given[dim - 1] = false;
-  control.strain[dim - 1] = strain;
-  return {std::make_shared<const Network<dim>>(periodic_specimen<dim>(1, edge)), {{control, true}}, parameters};
+  return {std::make_shared<const Network<dim>>(periodic_specimen<dim>(1, edge)),
+          {{with_free_sides<dim>(strain), true}},
+          parameters};
 }
 
 template <int dim>
@@ -53,25 +52,8 @@ template <int dim>
 void expect_same_bits_when_taken_up(const Kinematics kinematics)
 {
   const auto pulled = [&] { return pull<dim>(3e-4, kinematics); };
-  PathRun<dim> whole = pulled();
-  while (!whole.has_ended())
-    whole.advance();
+  const auto [whole, broken] = tests::whole_and_taken_up(pulled);
   EXPECT_GT(whole.record().cracks.size(), 5u);
-
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "checkpoint.h5";
-  PathRun<dim> broken = pulled();
-  for (unsigned int k = 0; !broken.has_ended(); ++k)
-    {
-      broken.advance();
-      if (k % 4 == 3)
-        {
-          broken.write_checkpoint(file, "the same");
-          PathRun<dim> next = pulled();
-          next.read_checkpoint(file, "the same");
-          broken = next;
-        }
-    }
   ASSERT_EQ(broken.record().samples.size(), whole.record().samples.size());
   for (std::size_t k = 0; k < whole.record().samples.size(); ++k)
     EXPECT_TRUE(same(broken.record().samples[k], whole.record().samples[k])) << k;
@@ -80,6 +62,9 @@ void expect_same_bits_when_taken_up(const Kinematics kinematics)
     EXPECT_EQ(broken.record().cracks[k].segment, whole.record().cracks[k].segment);
   EXPECT_EQ(broken.rve().state().motions, whole.rve().state().motions);
 
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  broken.write_checkpoint(file, "the same");
   PathRun<dim> other = pulled();
   EXPECT_THROW(other.read_checkpoint(file, "another"), InputError);
   PathRun<dim> of_another = pull<dim>(3e-4, kinematics, dim == 2 ? 0.014 : 0.007);
@@ -139,12 +124,9 @@ TEST(PathRun, KeepsTheStateBeforeWhereThereIsNoEquilibrium)
   Control<2> control;
   control.stress_given.fill(true);
   control.stress[1] = 60e6;
-  PathRun<2> run(std::make_shared<const Network<2>>(periodic_specimen()), {{control, false}}, {});
-  while (!run.has_ended())
-    run.advance();
+  const auto run = at_end(PathRun<2>(std::make_shared<const Network<2>>(periodic_specimen()), {{control, false}}, {}));
   EXPECT_EQ(run.record().failure.find("no equilibrium was found at stress_xx = 0 MPa, stress_yy = "), 0u);
-  EXPECT_NE(run.record().failure.find("in the search the cell strained by more than 0.1"), std::string::npos)
-    << run.record().failure;
+  EXPECT_TRUE(has(run.record().failure, "in the search the cell strained by more than 0.1"));
   const auto& last = run.record().samples.back();
   EXPECT_GT(last.stress[1], 4e6);
   EXPECT_LE(last.unbalanced_ratio, EquilibriumParameters{}.final_tolerance);

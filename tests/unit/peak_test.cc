@@ -5,13 +5,13 @@
 #include "laboratory/stage_walk.h"
 #include "laboratory/stop_rule.h"
 #include "results/evaluation.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,6 +19,8 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
+
 constexpr double unit_of_strain = 1e-3;
 constexpr double unit_of_time = 1e-3; // of a strain of 1e-3 at 1/s [s]
 
@@ -115,8 +117,7 @@ TEST(Peak, NeedsAFall)
   const auto fallen_to = [](const double stress) { return curve_through({{0.0, 0.0}, {2.0, 100.0}, {2.4, stress}}); };
   EXPECT_EQ(peak_of(fallen_to(96.0)).second, 0.0);
   EXPECT_NEAR(peak_of(fallen_to(94.0)).second, 100.0, 1e-9);
-  EXPECT_NE(evaluate(fallen_to(96.0)).peak_stress.reason.find("had not fallen by 5 % from its highest, 100 MPa"),
-            std::string::npos);
+  EXPECT_TRUE(has(evaluate(fallen_to(96.0)).peak_stress.reason, "had not fallen by 5 % from its highest, 100 MPa"));
   TestRecord record = fallen_to(96.0);
   record.peak_demands.least_fall = 0.03;
   EXPECT_NEAR(peak_of(record).second, 100.0, 1e-9);
@@ -194,14 +195,13 @@ TEST(Peak, NeedsALeastStressAndTimeForItsWaves)
   TestRecord never_held = curve_through({gap.begin(), gap.begin() + 6});
   never_held.peak_demands = demands;
   EXPECT_EQ(peak_of(never_held).second, 0.0);
-  EXPECT_NE(evaluate(never_held).peak_stress.reason.find("the highest stress, 0.2 MPa, is below 0.8 MPa"),
-            std::string::npos);
+  EXPECT_TRUE(has(evaluate(never_held).peak_stress.reason, "the highest stress, 0.2 MPa, is below 0.8 MPa"));
 
   // A test so fast that it breaks within one travel of a wave ends, and has no strength.
   TestRecord fast = curve_through({{0.0, 0.0}, {0.02, 67.0}, {0.04, 10.0}, {0.2, 8.0}});
   fast.peak_demands = demands;
   EXPECT_NEAR(end_of(fast, demands), 1.6 * 0.025, 0.011);
-  EXPECT_NE(evaluate(fast).peak_stress.reason.find("came after 20 µs"), std::string::npos);
+  EXPECT_TRUE(has(evaluate(fast).peak_stress.reason, "came after 20 µs"));
 }
 
 TEST(Peak, OfADiscIsNoRipple)
@@ -256,7 +256,7 @@ TEST(StopRules, GiveUpAStageWhereItsStressNoLongerRises)
     }
   EXPECT_NEAR(-curve.back().axial_strain, 2.64e-3,
               0.02e-3); // 138 MPa fall by 98 over 0.2e-3, and 69 come after 0.14e-3
-  EXPECT_NE(walk.ended_early().find("rose to 138.0 MPa and no further"), std::string::npos) << walk.ended_early();
+  EXPECT_TRUE(has(walk.ended_early(), "rose to 138.0 MPa and no further"));
 }
 
 TEST(StopRules, EndATestThatNothingHolds)

@@ -71,10 +71,8 @@ Record<dim> strained_by_threads(const int n_threads)
   return record;
 }
 
-template <typename Case>
-class PointsOnThreads : public testing::Test
-{
-};
+template <typename>
+using PointsOnThreads = testing::Test;
 TYPED_TEST_SUITE(PointsOnThreads, Dimensions);
 
 TYPED_TEST(PointsOnThreads, HaveTheBitsOfOneThread)

@@ -14,28 +14,25 @@
 #include "report/pictures/maps/specimen_data.h"
 #include "report/report.h"
 #include "report/sections/comparison.h"
-#include "report/sections/comparison_frame.h"
-#include "report/sections/comparison_table.h"
 #include "report/sections/findings.h"
 #include "report/sections/provenance.h"
 #include "report/sections/sections.h"
 #include "report/sections/study_text.h"
-#include "report/sections/test_tables.h"
+#include "report/sections/tables.h"
 #include "report/sections/text.h"
 #include "report/sections/verdict.h"
 #include "results/fits/residual_strength.h"
 #include "results/fits/run_envelopes.h"
-#include "results/fits/strength_data.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/bodies.h"
-#include "results/runs/quantity_values.h"
 #include "results/runs/series.h"
 #include "results/runs/test_groups.h"
 #include "results/runs/trust.h"
 #include "results/statistics.h"
 #include "tests/content.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,8 +41,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -146,6 +141,17 @@ FinishedTest notched(const TestKind& kind, const bool is_valid)
   return test;
 }
 
+/// The row of a property; an empty one where there is none.
+ComparisonRow comparison_of(const std::vector<ComparisonRow>& rows, const std::string& property)
+{
+  const auto row = std::ranges::find(rows, property, &ComparisonRow::property);
+  EXPECT_NE(row, rows.end()) << property;
+  return row == rows.end() ? ComparisonRow{} : *row;
+}
+
+const std::optional<Reference> no_reference;
+const std::string no_problem;
+
 TEST(ResultFolder, IsReadBackAsItWasWritten)
 {
   const TemporaryFolder folder;
@@ -226,12 +232,9 @@ TEST(ResultFolder, OfAnotherLayoutIsReadAsFarAsItGoes)
   EXPECT_EQ(*all[0].tests[0].results.peak_stress.value, 150e6);
   EXPECT_EQ(all[0].tests[0].group, "uniaxial_compression");
   EXPECT_EQ(all[0].tests[0].results.youngs_modulus_initial.reason, "not in this result folder");
-  std::string said;
-  for (const auto& problem : all[0].problems)
-    said += problem + "\n";
-  for (const char* words : {"layout 0", "does not know was left out", "uniaxial_compression_seed_1.csv: cannot be read",
-                            "cracks.csv: cannot be read"})
-    EXPECT_NE(said.find(words), std::string::npos) << words << " in\n" << said;
+  const std::string said = joined(all[0].problems);
+  EXPECT_TRUE(has(said, "layout 0", "does not know was left out", "uniaxial_compression_seed_1.csv: cannot be read",
+                  "cracks.csv: cannot be read"));
 }
 
 /// Layout 1 had the RVEs of a test under the key `volumes`.
@@ -264,13 +267,9 @@ TEST(ResultFolder, ToughnessAndNotchAreReadBackForThePage)
   const auto tests = read_result_folder(folder.path(), test_kinds()).at(0).tests;
   ASSERT_TRUE(tests.at(0).record.notch);
   EXPECT_EQ(tests.at(0).record.notch->ligament_length, 0.009);
-  const auto rows = compare(tests, std::nullopt);
-  const auto toughness = std::find_if(rows.begin(), rows.end(), [](const ComparisonRow& row) {
-    return row.property == "fracture toughness, three point bending";
-  });
-  ASSERT_NE(toughness, rows.end());
-  ASSERT_TRUE(toughness->ours);
-  EXPECT_NEAR(toughness->ours->mean, *bent.results.fracture_toughness.value / 1e6, 1e-9);
+  const auto toughness = comparison_of(compare(tests, std::nullopt), "fracture toughness, three point bending");
+  ASSERT_TRUE(toughness.ours);
+  EXPECT_NEAR(toughness.ours->mean, *bent.results.fracture_toughness.value / 1e6, 1e-9);
 
   // A folder from before the length was written has the notch without it.
   auto summary = nlohmann::json::parse(content(folder.path() / "summary.json"));
@@ -300,24 +299,14 @@ TEST(ResultFolder, StagesAreReadBackUnlessTheyAreNotThoseOfTheCurve)
   const auto all = read_result_folder(folder.path(), test_kinds());
   EXPECT_TRUE(all.at(0).tests.at(0).record.stages.empty());
   ASSERT_FALSE(all.at(0).problems.empty());
-  EXPECT_NE(all[0].problems.back().find("the stages of uniaxial_compression_seed_1 are not those of its curve"),
-            std::string::npos)
-    << all[0].problems.back();
+  EXPECT_TRUE(has(all[0].problems.back(), "the stages of uniaxial_compression_seed_1 are not those of its curve"));
 }
 
 TEST(ResultFolder, ThatIsNoneIsRefused)
 {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& words) {
-    try
-      {
-        read_result_folder(folder.path(), test_kinds());
-        ADD_FAILURE() << words;
-      }
-    catch (const InputError& error)
-      {
-        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-      }
+    EXPECT_TRUE(has(refusal([&] { read_result_folder(folder.path(), test_kinds()); }), words));
   };
   refused("there is no summary.json in it");
   folder.write("summary.json", "{\"tests\": [");
@@ -340,13 +329,9 @@ TEST(ResultFolder, ACurveThatIsCutShortIsSaidAndTheRestKept)
                content(folder.path() / "curves/uniaxial_compression_seed_4.csv") + "1,2,3\n");
   const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all[0].problems.size(), 2u);
-  EXPECT_NE(all[0].problems[0].find("uniaxial_compression_seed_3.csv:1: there is no column axial_strain"),
-            std::string::npos)
-    << all[0].problems[0];
-  EXPECT_NE(
-    all[0].problems[1].find("uniaxial_compression_seed_4.csv:33: there must be 20 values, one for each of step,"),
-    std::string::npos)
-    << all[0].problems[1];
+  EXPECT_TRUE(has(all[0].problems[0], "uniaxial_compression_seed_3.csv:1: there is no column axial_strain"));
+  EXPECT_TRUE(
+    has(all[0].problems[1], "uniaxial_compression_seed_4.csv:33: there must be 20 values, one for each of step,"));
   EXPECT_EQ(all[0].tests[0].record.cracks.size(), 40u);
   EXPECT_TRUE(all[0].tests[0].results.peak_stress.value);
 }
@@ -372,11 +357,7 @@ TEST(ResultFolder, KnowsTestsOnFiniteElementsAndWhatTheyCannotHave)
   EXPECT_EQ(results.kinetic_to_strain_energy.reason, "equilibrium is sought without time");
   EXPECT_EQ(results.p_wave_transits_to_peak.reason, "equilibrium is sought without time");
   EXPECT_EQ(results.n_fragments.reason, "there are no grains to be counted");
-  std::string said;
-  for (const auto& sentence : warnings(all[0]))
-    said += sentence + "\n";
-  EXPECT_NE(said.find("ended early: no equilibrium was found."), std::string::npos) << said;
-  EXPECT_NE(said.find("Only 1 sample:"), std::string::npos) << said;
+  EXPECT_TRUE(has(joined(warnings(all[0])), "ended early: no equilibrium was found.", "Only 1 sample:"));
 }
 
 TEST(Band, IsMeanAndDeviationAtTheSameStrain)
@@ -442,50 +423,47 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
       text += fmt::format("{}: {}, n = {}; {}\n", tile.property, tile.value, tile.n, tile.notes);
     return text;
   };
-  const auto holds = [](const std::string& text, const std::vector<std::string>& all_words) {
-    for (const auto& words : all_words)
-      EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
-  };
-  holds(
+  EXPECT_TRUE(has(
     said(granite(120.0, 130.0), ""),
-    {"Yes. Uniaxial compressive strength lies within the measured range (3 specimens). Young's modulus is given without a "
-     "range and deviates by",
-     "uniaxial compressive strength: 126.0 ± 6.0 MPa, n = 3; experiment 125.0", "+0.8 %",
-     "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range", "Young's modulus"});
-  holds(
+    "Yes. Uniaxial compressive strength lies within the measured range (3 specimens). Young's modulus is given without a "
+    "range and deviates by",
+    "uniaxial compressive strength: 126.0 ± 6.0 MPa, n = 3; experiment 125.0", "+0.8 %",
+    "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range", "Young's modulus"));
+  EXPECT_TRUE(has(
     said(granite(127.0, 130.0), ""),
-    {"Not decided by 3 specimens. Uniaxial compressive strength is outside the measured range, but its 95 % interval "
-     "reaches into it.",
-     "experiment 125.0 (127.0 to 130.0) MPa, +0.8 %; not decided by 3 specimens: the 95 % interval of the mean, 111.1 "
-     "to 140.9, reaches into the range"});
-  holds(said(granite(141.0, 150.0), ""),
-        {"No. Uniaxial compressive strength is outside the measured range (3 specimens). Young's modulus is given"});
+    "Not decided by 3 specimens. Uniaxial compressive strength is outside the measured range, but its 95 % interval "
+    "reaches into it.",
+    "experiment 125.0 (127.0 to 130.0) MPa, +0.8 %; not decided by 3 specimens: the 95 % interval of the mean, 111.1 "
+    "to 140.9, reaches into the range"));
+  EXPECT_TRUE(
+    has(said(granite(141.0, 150.0), ""),
+        "No. Uniaxial compressive strength is outside the measured range (3 specimens). Young's modulus is given"));
   // All of the interval inside, or all of it outside: no such remark.
-  EXPECT_EQ(said(granite(1.0, 500.0), "").find("reaches"), std::string::npos);
-  EXPECT_EQ(said(granite(300.0, 500.0), "").find("reaches"), std::string::npos);
+  EXPECT_FALSE(has(said(granite(1.0, 500.0), ""), "reaches"));
+  EXPECT_FALSE(has(said(granite(300.0, 500.0), ""), "reaches"));
   // The unit belongs to the mean, not to the number of tests.
   Reference of_tests = granite(120.0, 130.0);
   of_tests.experiment.values["uniaxial_compressive_strength_MPa"].n = 6;
-  holds(said(of_tests, ""), {"experiment 125.0 MPa, n = 6 (120.0 to 130.0), +0.8 %"});
-  holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
+  EXPECT_TRUE(has(said(of_tests, ""), "experiment 125.0 MPa, n = 6 (120.0 to 130.0), +0.8 %"));
+  EXPECT_TRUE(has(said(std::nullopt, "no such file"), "Nothing to compare with: no such file."));
   // Fewer specimens have no such interval, which is said instead.
   tests.pop_back();
-  holds(said(granite(1.0, 500.0), ""), {": 120.0 and 132.0 MPa, n = 2;", "two specimens are too few to be sure"});
+  EXPECT_TRUE(
+    has(said(granite(1.0, 500.0), ""), ": 120.0 and 132.0 MPa, n = 2;", "two specimens are too few to be sure"));
   const std::string on_terminal = as_text(compare(tests, std::nullopt), std::nullopt);
-  EXPECT_NE(on_terminal.find("  n = 2: 120.0 and 132.0\n"), std::string::npos) << on_terminal;
+  EXPECT_TRUE(has(on_terminal, "  n = 2: 120.0 and 132.0\n"));
   // The mean of 120 and 132 MPa is 126 ± 12.706·6 = 76 MPa.
-  holds(said(granite(203.0, 300.0), ""),
-        {"No. Uniaxial compressive strength is outside the measured range (2 specimens)."});
-  holds(said(granite(202.0, 300.0), ""),
-        {"Not decided by 2 specimens.",
-         "not decided by 2 specimens: the 95 % interval of the mean reaches into the range"});
+  EXPECT_TRUE(has(said(granite(203.0, 300.0), ""),
+                  "No. Uniaxial compressive strength is outside the measured range (2 specimens)."));
+  EXPECT_TRUE(has(said(granite(202.0, 300.0), ""), "Not decided by 2 specimens.",
+                  "not decided by 2 specimens: the 95 % interval of the mean reaches into the range"));
   tests.pop_back();
-  holds(said(granite(1.0, 500.0), ""), {"120.0 MPa, n = 1;", "one specimen is too few to be sure"});
-  holds(
+  EXPECT_TRUE(has(said(granite(1.0, 500.0), ""), "120.0 MPa, n = 1;", "one specimen is too few to be sure"));
+  EXPECT_TRUE(has(
     said(granite(300.0, 500.0), ""),
-    {"Not decided by one specimen. Uniaxial compressive strength is outside the measured range, but one specimen has "
-     "no 95 % interval.",
-     "not decided by one specimen, which has no 95 % interval"});
+    "Not decided by one specimen. Uniaxial compressive strength is outside the measured range, but one specimen has "
+    "no 95 % interval.",
+    "not decided by one specimen, which has no 95 % interval"));
 }
 
 /// A property in MPa, measured to be 100 (90 to 110), or without a range.
@@ -526,14 +504,12 @@ TEST(Verdict, IsOneForSentenceTileAndTables)
 
   const std::vector<Series> all{{"model", SeriesKind::specimens, {}, {compression(1)}, {}}};
   const std::optional<Reference> reference = granite(90.0, 110.0);
-  const std::string no_problem;
   const Findings findings{all, all, reference, no_problem, true, {{within, open, outside}}, {}};
   const Table table = comparison_table(findings);
   std::string cells;
   for (const auto& row : table.rows)
     cells += fmt::format("{}\n", fmt::join(row, " | "));
-  for (const char* cell : {"✓ +9.0 %, in range", "? +14.9 %, not decided", "✗ +15.0 %, out of range"})
-    EXPECT_NE(cells.find(cell), std::string::npos) << cell << " in\n" << cells;
+  EXPECT_TRUE(has(cells, "✓ +9.0 %, in range", "? +14.9 %, not decided", "✗ +15.0 %, out of range"));
   const DataFrame frame = comparison_frame(findings);
   ASSERT_EQ(frame.header.back(), "verdict");
   std::vector<std::string> verdicts;
@@ -573,15 +549,11 @@ TEST(Verdict, OfADiscThatBearsMoreAfterItsFirstFallSaysSo)
   for (const Figure& after_peak : {test.results.post_peak_drop, test.results.residual_deviator_ratio})
     {
       EXPECT_FALSE(after_peak.value);
-      EXPECT_NE(after_peak.reason.find("before the first fall"), std::string::npos) << after_peak.reason;
+      EXPECT_TRUE(has(after_peak.reason, "before the first fall"));
     }
-  std::string said;
-  for (const std::string& sentence : warnings({"one", SeriesKind::specimens, {}, {test}, {}}))
-    said += sentence + "\n";
-  EXPECT_NE(said.find("brazilian_seed_1 bore 1.20 times its strength after its first fall, by which the strength is "
-                      "taken.\n"),
-            std::string::npos)
-    << said;
+  EXPECT_TRUE(has(joined(warnings({"one", SeriesKind::specimens, {}, {test}, {}})),
+                  "brazilian_seed_1 bore 1.20 times its strength after its first fall, by which the strength is "
+                  "taken.\n"));
 }
 
 /// Compressions of two seeds of a body.
@@ -607,9 +579,8 @@ TEST(Bodies, OfDifferentGapsAreSaidToBeDifferentRocks)
   EXPECT_TRUE(gap_remarks({grains, alike}).empty());
   const auto remarks = gap_remarks({grains, alike, sample});
   ASSERT_EQ(remarks.size(), 1u);
-  for (const char* const words : {"direct and multiscale are different rocks", "0.0457 and 0.0237 mean radii",
-                                  "4.36 and 4.20", "0.160 and 0.160"})
-    EXPECT_NE(remarks[0].find(words), std::string::npos) << remarks[0];
+  EXPECT_TRUE(has(remarks[0], "direct and multiscale are different rocks", "0.0457 and 0.0237 mean radii",
+                  "4.36 and 4.20", "0.160 and 0.160"));
   // A curve measured on rock has no gap, nor has a sample without grains.
   Series measured = body("curve", SeriesKind::laboratory_curve, 0.5, 9.0);
   Series without = body("continuum", SeriesKind::finite_elements, 0.5, 9.0);
@@ -619,13 +590,9 @@ TEST(Bodies, OfDifferentGapsAreSaidToBeDifferentRocks)
   EXPECT_EQ(as_text(*body_figures(sample)),
             "multiscale: gap 0.0237 mean radii, coordination number 4.20 in the bulk, porosity 0.160");
   // The comparison shows them as properties of the rock: of gaps 0.9 and 1.1 times the mean.
-  const auto rows = compare(grains.tests, std::nullopt);
-  const auto gap = std::find_if(rows.begin(), rows.end(), [](const ComparisonRow& row) {
-    return row.property == "installation gap over mean radius";
-  });
-  ASSERT_NE(gap, rows.end());
-  EXPECT_NEAR(gap->ours->mean, 0.0457, 1e-12);
-  EXPECT_NEAR(*gap->ours->standard_deviation, 0.2 * 0.0457 / std::sqrt(2.0), 1e-12);
+  const auto gap = comparison_of(compare(grains.tests, std::nullopt), "installation gap over mean radius");
+  EXPECT_NEAR(gap.ours->mean, 0.0457, 1e-12);
+  EXPECT_NEAR(*gap.ours->standard_deviation, 0.2 * 0.0457 / std::sqrt(2.0), 1e-12);
 }
 
 TEST(Bodies, OfASeedAreItsWholeSpecimen)
@@ -652,20 +619,13 @@ TEST(Trust, SaysWhatIsOutOfItsBounds)
   series.tests[2].record.interrupted = true;
   series.tests[2].results = evaluate(series.tests[2].record);
   series.problems = {"curves/a.csv: cannot be read"};
-  std::string said;
-  for (const auto& sentence : warnings(series))
-    said += sentence + "\n";
-  for (
-    const char* words :
-    {"Out of bounds in 1 of 3 tests: energy imbalance over boundary work; worst 2.00 % (uniaxial_compression_seed_2)",
-     "uniaxial_compression_seed_3 has no strength: interrupted before its end", "curves/a.csv: cannot be read"})
-    EXPECT_NE(said.find(words), std::string::npos) << words << " in\n" << said;
+  EXPECT_TRUE(has(
+    joined(warnings(series)),
+    "Out of bounds in 1 of 3 tests: energy imbalance over boundary work; worst 2.00 % (uniaxial_compression_seed_2)",
+    "uniaxial_compression_seed_3 has no strength: interrupted before its end", "curves/a.csv: cannot be read"));
 
   series.tests.resize(1);
-  said.clear();
-  for (const auto& sentence : warnings(series))
-    said += sentence;
-  EXPECT_NE(said.find("Only 1 specimen:"), std::string::npos) << said;
+  EXPECT_TRUE(has(joined(warnings(series)), "Only 1 specimen:"));
 }
 
 TEST(Trust, SaysWhereATestEndedTooNearToItsPeakToShowIt)
@@ -703,7 +663,7 @@ TEST(Trust, SaysOnceWhatIsSoOfAllModels)
                               "(uniaxial_compression_seed_3), bound at most 1 %.");
   EXPECT_TRUE(shared.own[0].empty()) << shared.own[0].front();
   ASSERT_EQ(shared.own[1].size(), 1u);
-  EXPECT_NE(shared.own[1][0].find("kinetic over strain energy"), std::string::npos) << shared.own[1][0];
+  EXPECT_TRUE(has(shared.own[1][0], "kinetic over strain energy"));
   EXPECT_TRUE(shared.own[2].empty());
   // One model alone has nothing to share.
   EXPECT_EQ(shared_warnings({series[1]}).own[0].size(), 2u);
@@ -720,10 +680,8 @@ TEST(Trust, OfManyVariantsIsTheWorstOfAll)
   tests[2].name = "the third";
   tests[2].results.energy_imbalance_over_work = 0.02;
   const std::string text = trust_as_text(tests);
-  EXPECT_NE(text.find("1 of 4 tests out, worst the third"), std::string::npos) << text;
-  const std::size_t once = text.find("Only 1 specimen");
-  ASSERT_NE(once, std::string::npos) << text;
-  EXPECT_EQ(text.find("Only 1 specimen", once + 1), std::string::npos) << text;
+  EXPECT_TRUE(has(text, "1 of 4 tests out, worst the third"));
+  EXPECT_EQ(times(text, "Only 1 specimen"), 1u) << text;
 }
 
 TEST(Study, ForATerminalHasALineAVariant)
@@ -738,13 +696,9 @@ TEST(Study, ForATerminalHasALineAVariant)
         tests.back().results.peak_stress = {(100.0 + 10.0 * k + double(seed)) * 1e6, ""};
       }
   const std::string text = study_as_text(tests, std::nullopt);
-  EXPECT_NE(text.find("4 variants, means over the seeds\n   1  uniaxial compressive strength [MPa]\n"),
-            std::string::npos)
-    << text;
-  EXPECT_NE(text.find("\n      1   Flat joint/Friction\n  111.5   1\n  121.5   2\n  131.5   3\n  141.5   4\n"),
-            std::string::npos)
-    << text;
-  EXPECT_NE(text.find("\nthe same in all variants\n"), std::string::npos) << text;
+  EXPECT_TRUE(has(text, "4 variants, means over the seeds\n   1  uniaxial compressive strength [MPa]\n",
+                  "\n      1   Flat joint/Friction\n  111.5   1\n  121.5   2\n  131.5   3\n  141.5   4\n",
+                  "\nthe same in all variants\n"));
 }
 
 TEST(Trust, SaysWhenThePackingOrTheElasticityIsNotWhatARockHas)
@@ -764,9 +718,7 @@ TEST(Trust, SaysWhenThePackingOrTheElasticityIsNotWhatARockHas)
   EXPECT_EQ(check("porosity_change").n_out, 1u);
   EXPECT_EQ(check("poissons_ratio_secant").n_out, 1u);
   EXPECT_EQ(check("poissons_ratio_initial").n_out, 0u);
-  EXPECT_NE(as_text(checks).find("✗ Poisson's ratio, secant at 50 % of peak\n    worst 1.030, bound at most 0.5"),
-            std::string::npos)
-    << as_text(checks);
+  EXPECT_TRUE(has(as_text(checks), "✗ Poisson's ratio, secant at 50 % of peak\n    worst 1.030, bound at most 0.5"));
 }
 
 TEST(Summary, HasTheVerdictOfTheReport)
@@ -858,12 +810,8 @@ TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
 TEST(EnvelopeTable, SaysWhichFormsItsPointsDoNotDetermine)
 {
   // Four means that no smooth curve follows: with three parameters nothing is known of them, with two a little.
-  StrengthData data{{}, 223.8e6, 12.67e6};
-  for (const auto& [sigma_3, sigma_1] : {std::pair(0.0, 223.8e6), {10e6, 358.4e6}, {30e6, 448.2e6}})
-    data.points.push_back({sigma_3, sigma_1});
+  const StrengthData data{{{0.0, 223.8e6}, {10e6, 358.4e6}, {30e6, 448.2e6}}, 223.8e6, 12.67e6};
   const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, {compression(1)}, {}}};
-  const std::optional<Reference> no_reference;
-  const std::string no_problem;
   Findings findings{all, all, no_reference, no_problem, true, {}, {fit_strength_envelopes(data)}};
   PictureBook book;
   std::map<std::string, std::string> admissible;
@@ -883,16 +831,12 @@ TEST(Envelope, OfPointsThatAreSteepestUnderTheFirstPressureNamesSmoothPlatens)
   const auto says_so = [](const std::string& friction, const double strength_at_10_mpa,
                           const std::vector<VariantSetting>& settings = {},
                           const SeriesKind kind = SeriesKind::specimens) {
-    StrengthData data{{}, 160e6, 10e6};
-    for (const auto& [sigma_3, sigma_1] : {std::pair(0.0, 160e6), {10e6, strength_at_10_mpa}, {30e6, 480e6}})
-      data.points.push_back({sigma_3, sigma_1});
+    const StrengthData data{{{0.0, 160e6}, {10e6, strength_at_10_mpa}, {30e6, 480e6}}, 160e6, 10e6};
     FinishedTest test = compression(1);
     test.settings = settings;
     Series series{"rock", kind, {}, {test}, {}};
     series.made_by.input = {{"Tests", "Platen friction", friction}};
     const std::vector<Series> all{series};
-    const std::optional<Reference> no_reference;
-    const std::string no_problem;
     Findings findings{all, all, no_reference, no_problem, true, {}, {fit_strength_envelopes(data)}};
     PictureBook book;
     for (const PageBlock& block : envelope_section(findings, book).blocks)
@@ -980,7 +924,7 @@ TEST(StudyPicture, ShowsResultsOverTheNumberThatVaries)
   const auto of_step = strength_pictures(in_step);
   ASSERT_EQ(of_step.size(), 1u);
   EXPECT_EQ(of_step[0].name, "study_Flat_joint_Friction_strength");
-  EXPECT_NE(of_step[0].caption.find("; along with it goes Flat joint/Modulus, Specimen/Width"), std::string::npos);
+  EXPECT_TRUE(has(of_step[0].caption, "; along with it goes Flat joint/Modulus, Specimen/Width"));
   EXPECT_EQ(nlohmann::json::parse(of_step[0].live())["lines"][0]["points"],
             nlohmann::json::parse("[[0.2, 80.0], [0.4, 90.0], [0.5, 95.0]]"));
   EXPECT_EQ(nlohmann::json::parse(of_step[0].live())["lines"][0]["label"], "Uniaxial compression");
@@ -1022,7 +966,7 @@ TEST(StudyPicture, OfManyTestsShowsEachKindByItself)
   ASSERT_EQ(pictures.size(), 2u);
   EXPECT_EQ(pictures[0].name, "study_Flat_joint_Friction_strength_direct_tension");
   EXPECT_EQ(pictures[1].name, "study_Flat_joint_Friction_strength_triaxial_compression");
-  EXPECT_NE(pictures[1].caption.find("; 6 of 8 lines, all are in tests.csv"), std::string::npos) << pictures[1].caption;
+  EXPECT_TRUE(has(pictures[1].caption, "; 6 of 8 lines, all are in tests.csv"));
   const auto lines = nlohmann::json::parse(pictures[1].live())["lines"];
   ASSERT_EQ(lines.size(), 2u * 6u); // means and marks
   EXPECT_EQ(lines[0]["label"], "Triaxial compression, 1 MPa");
@@ -1049,14 +993,14 @@ TEST(EnvelopePicture, GivesLongLabelsOfManySeriesAKeyOfMoreRows)
   };
   const Picture brief = picture_of("law ");
   const Picture verbose = picture_of("Specimen/Joint law = softening flat joint ");
-  EXPECT_NE(brief.script().find("set key vertical maxrows 5"), std::string::npos);
+  EXPECT_TRUE(has(brief.script(), "set key vertical maxrows 5"));
   const auto entries = [](const Picture& picture) {
     const auto& series = picture.panels.at(0).series;
     return std::count_if(series.begin(), series.end(),
                          [](const ChartSeries& one) { return !one.points.empty() && one.goes_with.empty(); });
   };
   ASSERT_EQ(entries(brief), 6);
-  EXPECT_NE(verbose.script().find("set key vertical maxrows 6"), std::string::npos);
+  EXPECT_TRUE(has(verbose.script(), "set key vertical maxrows 6"));
   EXPECT_EQ(verbose.height, brief.height + 23);
 }
 
@@ -1127,16 +1071,15 @@ TEST(TerminalText, OfAComparisonFitsAndLeavesOutWhatIsEmpty)
     {"uniaxial compressive strength", "MPa", 1, Statistics{3, 176.0, 5.1, 2.9, 12.7}, std::nullopt, measured},
     {"Young's modulus, tangent 40-60 % of peak", "GPa", 1, Statistics{3, 55.5, 0.4, 0.2, 1.0}, std::nullopt,
      std::nullopt}};
-  EXPECT_EQ(as_text(rows, std::nullopt).find("reference model"), std::string::npos);
+  EXPECT_FALSE(has(as_text(rows, std::nullopt), "reference model"));
   // There is room for 80 - 2 - 11 - 2 - 22 = 43 characters of a heading; the second has 46.
-  EXPECT_NE(as_text(rows, std::nullopt).find("uniaxial compressive strength [MPa] "), std::string::npos)
-    << as_text(rows, std::nullopt);
-  EXPECT_NE(as_text(rows, std::nullopt).find("\n  [GPa]\n"), std::string::npos) << as_text(rows, std::nullopt);
+  EXPECT_TRUE(has(as_text(rows, std::nullopt), "uniaxial compressive strength [MPa] "));
+  EXPECT_TRUE(has(as_text(rows, std::nullopt), "\n  [GPa]\n"));
   rows[0].model = ReferenceValue{167.4, std::nullopt, std::nullopt};
   const std::string text = as_text(rows, std::nullopt);
-  EXPECT_NE(text.find("reference model"), std::string::npos);
+  EXPECT_TRUE(has(text, "reference model"));
   EXPECT_LE(widest_line(text), 80u) << text;
-  EXPECT_NE(text.find("\n  40-60 % of peak [GPa]\n"), std::string::npos) << text;
+  EXPECT_TRUE(has(text, "\n  40-60 % of peak [GPa]\n"));
 }
 
 TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
@@ -1152,7 +1095,7 @@ TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
     verdict(rows, reference, "").points.back(),
     "Not tested here: the experiment's strength_at_30_MPa, tensile_strength_MPa; Tests/List and Tests/Confinements "
     "add tests.");
-  EXPECT_NE(as_text(rows, reference).find("Not tested here: the experiment's strength_at_30_MPa"), std::string::npos);
+  EXPECT_TRUE(has(as_text(rows, reference), "Not tested here: the experiment's strength_at_30_MPa"));
   EXPECT_TRUE(properties_without_a_test(rows, std::nullopt).empty());
 }
 
@@ -1172,7 +1115,7 @@ TEST(Comparison, SaysWhyATestOfAPropertyHasNoFigureOfIt)
               "No figure of fracture toughness, semicircular bending: the body lies outside of the range", 0),
             0u)
     << sentences.front();
-  EXPECT_NE(as_text(rows, reference).find("No figure of fracture toughness"), std::string::npos);
+  EXPECT_TRUE(has(as_text(rows, reference), "No figure of fracture toughness"));
   // The verdict says it too where nothing else can be compared.
   EXPECT_EQ(verdict(rows, reference, "").points.front(), sentences.front());
   // The same of a body that could not be set up.
@@ -1190,8 +1133,6 @@ TEST(StrengthTable, HasTheToughnessOfNotchedBodiesOnly)
   bent.results.fracture_energy = {45.67, ""};
   std::vector<Series> all(1);
   all[0].tests = {compression(3)};
-  const std::optional<Reference> no_reference;
-  const std::string no_problem;
   const Findings findings{all, all, no_reference, no_problem, true, {}, {}};
   EXPECT_EQ(strength_table(findings).header.size(), 7u);
   all.emplace_back().tests = {bent};
@@ -1308,7 +1249,7 @@ TEST(CalibrationSection, HasTitlesAndNoMoreFiguresThanAreKnown)
                             {"crack damage stress", "bond cohesion over tensile strength", "0.92", "0.95"},
                             {"crack damage stress", "installation gap ratio", "0.00", "0.00"},
                             {"Poisson's ratio, initial", "bond cohesion over tensile strength", "0.10", "0.20"}}));
-  EXPECT_NE(more[1].caption.find("Poisson's ratio less that of intact cells"), std::string::npos);
+  EXPECT_TRUE(has(more[1].caption, "Poisson's ratio less that of intact cells"));
 }
 
 TEST(CalibrationSection, OfWhatWasNotTestedSaysWhatIsPredicted)
@@ -1341,10 +1282,8 @@ TEST(CalibrationSection, OfWhatWasNotTestedSaysWhatIsPredicted)
   const TemporaryFolder folder;
   EXPECT_TRUE(write_report(record, folder.path()).empty());
   const std::string page = content(folder.path() / "report.html");
-  for (const char* words :
-       {"granite: calibration", "These targets cannot be reached together.", "predicted", "nearest"})
-    EXPECT_NE(page.find(words), std::string::npos) << words;
-  EXPECT_NE(content(folder.path() / "tables/calibration_targets.csv").find("predicted"), std::string::npos);
+  EXPECT_TRUE(has(page, "granite: calibration", "These targets cannot be reached together.", "predicted", "nearest"));
+  EXPECT_TRUE(has(content(folder.path() / "tables/calibration_targets.csv"), "predicted"));
 }
 
 TEST(Report, OfACalibrationBeginsWithItsStatementAndHasThePairsBelow)
@@ -1447,33 +1386,23 @@ std::string page_of(const std::vector<Series>& all)
   return content(folder.path() / "report.html");
 }
 
-std::size_t times(const std::string& text, const std::string& words)
-{
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; at += words.size())
-    ++n;
-  return n;
-}
-
 TEST(Report, OfAStudyBeginsWithItsEffectsAndItsMap)
 {
   const std::string page = page_of(two_entries());
   const std::size_t study = page.find("<section id=\"study\">");
   ASSERT_NE(study, std::string::npos);
   EXPECT_EQ(page.find("<section "), study) << "the page begins elsewhere";
-  EXPECT_NE(
-    page.find(
-      "Uniaxial compression, strength [MPa]: with Friction from 0.2 to 0.5 it goes from 100 to 150 (+50.0 %); Modulus has no "
-      "effect."),
-    std::string::npos);
+  EXPECT_TRUE(has(
+    page,
+    "Uniaxial compression, strength [MPa]: with Friction from 0.2 to 0.5 it goes from 100 to 150 (+50.0 %); Modulus has no "
+    "effect."));
   const std::size_t map = page.find("over Flat joint/Friction and Flat joint/Modulus: mean over the seeds");
   EXPECT_LT(page.find("<div class=\"beside\">", study), map);
   EXPECT_LT(map, page.find("<details>", study)) << "the map is folded";
-  EXPECT_NE(page.find("<th scope=\"row\">Uniaxial compression: strength [MPa]</th><td>100 to 150 (+50.0 %)</td>"
-                      "<td>no effect</td>"),
-            std::string::npos);
+  EXPECT_TRUE(has(page, "<th scope=\"row\">Uniaxial compression: strength [MPa]</th><td>100 to 150 (+50.0 %)</td>"
+                        "<td>no effect</td>"));
   // Folded parts do not stand on paper, and a warning on all stands once.
-  EXPECT_NE(page.find("<body class=\"brief-on-paper\">"), std::string::npos);
+  EXPECT_TRUE(has(page, "<body class=\"brief-on-paper\">"));
   EXPECT_EQ(times(page, "Only 1 specimen: "), 1u);
   EXPECT_EQ(times(page, "take 3 seeds or more (so in 6 of 6 series)."), 1u);
   EXPECT_EQ(times(page, "Out of bounds in 6 of 6 tests: energy imbalance over boundary work"), 1u);
@@ -1489,9 +1418,8 @@ TEST(Report, OfOneEntrySaysWhereAResultIsHighestBetweenItsEnds)
       all[k].tests.front().settings = {{"Flat joint/Modulus", moduli[k]}};
       all[k].tests.front().results.peak_stress = {k == 1 ? 130e6 : 100e6, ""};
     }
-  EXPECT_NE(page_of(all).find(
-              "strength [MPa]: with Modulus from 50 to 70 GPa it goes from 100 to 100 (+0.0 %); 130 at 60 GPa."),
-            std::string::npos);
+  EXPECT_TRUE(has(page_of(all),
+                  "strength [MPa]: with Modulus from 50 to 70 GPa it goes from 100 to 100 (+0.0 %); 130 at 60 GPa."));
 }
 
 TEST(Trust, OfManySeriesCountsWhatIsAlikeButForNamesAndNumbers)
@@ -1517,8 +1445,7 @@ TEST(Trust, SaysOnceWhatHoldsForSeveralTests)
             fmt::format("{} could not be finished: the walls cannot hold 40000 MPa. The same holds for "
                         "{}.",
                         all[0].tests[0].name, all[0].tests[2].name));
-  EXPECT_EQ(
-    std::ranges::count_if(sentences, [](const auto& one) { return one.find("cannot hold") != std::string::npos; }), 1);
+  EXPECT_EQ(times(joined(sentences), "cannot hold"), 1u);
 }
 
 // Texts of the user: a heading, a name in tables and keys, a line under the heading and one at the top of each sheet.
@@ -1526,7 +1453,7 @@ TEST(Report, BearsTheTextsOfItsUser)
 {
   std::vector<Series> all{{"out", SeriesKind::specimens, {}, {compression(1), compression(2), compression(3)}, {}}};
   const std::string without = page_of(all);
-  EXPECT_EQ(without.find("<div class=\"paper-head\">"), std::string::npos);
+  EXPECT_FALSE(has(without, "<div class=\"paper-head\">"));
   for (const char* const entry : {"Title", "Client", "Specimen", "Author", "Date"})
     all[0].made_by.input.push_back({"Report", entry, "none"});
   EXPECT_EQ(page_of(all), without) << "an empty text changes the page";
@@ -1536,16 +1463,15 @@ TEST(Report, BearsTheTextsOfItsUser)
   write(2, "BS06-3");
   write(4, "2026-11-29");
   const std::string page = page_of(all);
-  for (const char* const words :
-       {"<title>Tunnel &lt;b&gt;7&lt;/b&gt;</title>", "<h1>Tunnel &lt;b&gt;7&lt;/b&gt;</h1>",
-        "<p>Client: Nagra &amp; Co · Specimen: BS06-3 · Date: 2026-11-29</p>",
-        "<div class=\"paper-head\"><p>2026-11-29 · BS06-3</p></div>", "<th scope=\"row\">Report</th><td>Client</td>"})
-    EXPECT_NE(page.find(words), std::string::npos) << words;
-  EXPECT_EQ(page.find("<b>7"), std::string::npos) << "a title became a part of the page";
-  EXPECT_EQ(page.find("<td>Author</td>"), std::string::npos);
+  EXPECT_TRUE(has(page, "<title>Tunnel &lt;b&gt;7&lt;/b&gt;</title>", "<h1>Tunnel &lt;b&gt;7&lt;/b&gt;</h1>",
+                  "<p>Client: Nagra &amp; Co · Specimen: BS06-3 · Date: 2026-11-29</p>",
+                  "<div class=\"paper-head\"><p>2026-11-29 · BS06-3</p></div>",
+                  "<th scope=\"row\">Report</th><td>Client</td>"));
+  EXPECT_FALSE(has(page, "<b>7")) << "a title became a part of the page";
+  EXPECT_FALSE(has(page, "<td>Author</td>"));
   // Beside another run it is named by its title.
   all.push_back({"other", SeriesKind::specimens, {}, {compression(1)}, {}});
-  EXPECT_NE(page_of(all).find("</span>Tunnel &lt;b&gt;7&lt;/b&gt;</h3>"), std::string::npos);
+  EXPECT_TRUE(has(page_of(all), "</span>Tunnel &lt;b&gt;7&lt;/b&gt;</h3>"));
 }
 
 TEST(CalibrationRecord, KnowsWhichFiguresItsReferenceHasAndNeedsNoPosterior)
@@ -1655,13 +1581,11 @@ TEST(TerminalText, OfATableHasHeadingsNoWiderThanItsColumns)
 
 TEST(TerminalText, OfEnvelopesFitsOnAScreen)
 {
-  StrengthData data{{}, 223.8e6, 12.67e6};
-  for (const auto& [sigma_3, sigma_1] : {std::pair(0.0, 223.8e6), {10e6, 358.4e6}, {30e6, 448.2e6}})
-    data.points.push_back({sigma_3, sigma_1});
+  const StrengthData data{{{0.0, 223.8e6}, {10e6, 358.4e6}, {30e6, 448.2e6}}, 223.8e6, 12.67e6};
   const std::string text = as_text(fit_strength_envelopes(data));
   const std::string tables = text.substr(0, text.find("s and a free, no σ_t: ")); // sentences are wrapped on a terminal
   EXPECT_LE(widest_line(tables), 80u) << tables;
-  EXPECT_NE(text.find("s and a free, no σ_t: no interval of m, s, a: "), std::string::npos) << text;
+  EXPECT_TRUE(has(text, "s and a free, no σ_t: no interval of m, s, a: "));
 }
 
 TEST(TerminalText, IsBrokenAtSpacesAndTablesAreNot)
@@ -1678,7 +1602,7 @@ TEST(Chart, IsDataThatEndsNoScript)
   Chart chart{.x = {.label = "</script><b>"}, .y = {.label = "q \xff [MPa]"}};
   chart.series.push_back({.label = "a \"b\"", .colour = "#000000", .points = {{1.0 / 3.0, 2e6}, gap, {-1e-9, 0.0}}});
   const std::string text = live::chart_data(chart);
-  EXPECT_EQ(text.find('<'), std::string::npos) << text;
+  EXPECT_FALSE(has(text, "<"));
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json["x"], "</script><b>");
   EXPECT_EQ(json["y"], "q \xef\xbf\xbd [MPa]"); // the replacement character stands for what is no UTF-8
@@ -1745,9 +1669,9 @@ TEST(CaptionOfCurves, NamesBandsWhereThereAreAny)
       text += picture.caption + "\n";
     return text;
   };
-  EXPECT_EQ(caption({compression(1)}).find("band"), std::string::npos);
-  EXPECT_EQ(caption({compression(1)}).find("mean of the tests"), std::string::npos);
-  EXPECT_NE(caption({compression(1), compression(2)}).find("bands: ± standard deviation"), std::string::npos);
+  EXPECT_FALSE(has(caption({compression(1)}), "band"));
+  EXPECT_FALSE(has(caption({compression(1)}), "mean of the tests"));
+  EXPECT_TRUE(has(caption({compression(1), compression(2)}), "bands: ± standard deviation"));
 }
 
 TEST(CrackMap, NumbersTheFirstJointsThatBroke)
@@ -1794,7 +1718,7 @@ TEST(CrackMap, NumbersTheFirstJointsThatBroke)
   const ChartSeries& later = at_initiation.at(at_initiation.size() - 2);
   EXPECT_EQ(later.colour, "#707070");
   EXPECT_FALSE(later.points.empty()) << "other segments of it break after initiation";
-  EXPECT_NE(map.caption.find("numbers: the order in which the first joints broke"), std::string::npos) << map.caption;
+  EXPECT_TRUE(has(map.caption, "numbers: the order in which the first joints broke"));
 }
 
 /// Whole numbers without sign out of base64, the lowest byte first.
@@ -2026,16 +1950,11 @@ TEST(Trust, WarnsOfAServoThatLetsTheConfinementGo)
 {
   Series series{"x", SeriesKind::specimens, {}, {compression(1)}, {}};
   TestResults& results = series.tests.front().results;
-  const auto warned = [&] {
-    const auto sentences = warnings(series);
-    return std::any_of(sentences.begin(), sentences.end(), [](const std::string& sentence) {
-      return sentence.find("servo error of the confinement, largest over the rows up to the peak") != std::string::npos;
-    });
-  };
+  constexpr const char* words = "servo error of the confinement, largest over the rows up to the peak";
   results.servo_error_largest = {0.029, ""};
-  EXPECT_FALSE(warned());
+  EXPECT_FALSE(has(joined(warnings(series)), words));
   results.servo_error_largest = {0.089, ""};
-  EXPECT_TRUE(warned());
+  EXPECT_TRUE(has(joined(warnings(series)), words));
 }
 
 TEST(Table, IsQuotedAsCsvWants)
@@ -2071,9 +1990,7 @@ TEST(ResultFolder, LeavesOutTestsWhoseNamesWouldLeadOutOfIt)
   const auto all = read_result_folder(folder.path(), test_kinds());
   EXPECT_EQ(all.at(0).tests.size(), 1u);
   ASSERT_EQ(all[0].problems.size(), 5u);
-  EXPECT_NE(all[0].problems[1].find("a test was left out for its name, \"a\\nsystem \"touch marker\"\""),
-            std::string::npos)
-    << all[0].problems[1];
+  EXPECT_TRUE(has(all[0].problems[1], "a test was left out for its name, \"a\\nsystem \"touch marker\"\""));
 }
 
 TEST(ResultFolder, NamesTheGroupsOfGrainsForWhatTheyAre)
@@ -2116,13 +2033,12 @@ TEST(ResultFolder, TakesNoCountThatIsNone)
       folder.write("grains/uniaxial_compression_seed_3.csv", table.substr(0, table.size() - 8) + number + ",0,0,0\n");
       const auto all = read_result_folder(folder.path(), test_kinds());
       ASSERT_EQ(all.at(0).problems.size(), 1u) << number;
-      EXPECT_NE(all[0].problems[0].find(fmt::format(".csv:3: \"{}\" is no count", number)), std::string::npos)
-        << all[0].problems[0];
+      EXPECT_TRUE(has(all[0].problems[0], fmt::format(".csv:3: \"{}\" is no count", number)));
     }
   // A count of summary.json that is none is taken for 0.
   std::string summary = content(folder.path() / "summary.json");
   const std::string steps = "\"steps\": 1000";
-  ASSERT_NE(summary.find(steps), std::string::npos);
+  ASSERT_TRUE(has(summary, steps));
   folder.write("summary.json", summary.replace(summary.find(steps), steps.size(), "\"steps\": 1e300"));
   EXPECT_EQ(read_result_folder(folder.path(), test_kinds()).at(0).tests.at(0).bookkeeping.steps, 0u);
 }
@@ -2212,9 +2128,9 @@ TEST(Reference, TakesTestsByTheirPrincipalStresses)
   EXPECT_EQ(rock.true_triaxial.size(), 2u);
   EXPECT_EQ(*rock.find("triaxial_compression_10_MPa_intermediate_60_MPa_strength_MPa")->mean, 240.0);
   EXPECT_EQ(*rock.find("strength_at_10_MPa")->mean, 200.0);
-  ASSERT_TRUE(rock.fitted.regressed.fit);
+  ASSERT_TRUE(rock.fitted.fit(HoekBrownForm::regressed, false));
   EXPECT_TRUE(rock.fitted.data.tension_is_indirect);
-  EXPECT_NE(remark(rock.fitted).find("that of Brazilian tests, for want of direct ones"), std::string::npos);
+  EXPECT_TRUE(has(remark(rock.fitted), "that of Brazilian tests, for want of direct ones"));
   EXPECT_EQ(rock.rock_mass->strength_index, 60.0);
   EXPECT_EQ(rock.rock_mass->disturbance, 0.5);
 }
@@ -2222,28 +2138,20 @@ TEST(Reference, TakesTestsByTheirPrincipalStresses)
 TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
 {
   const TemporaryFolder folder;
-  const auto refusal = [&](const std::string& text) -> std::string {
+  const auto refusal_of = [&](const std::string& text) {
     const auto file = folder.write("rock.json", text);
-    try
-      {
-        read_reference(file, test_kinds());
-      }
-    catch (const InputError& error)
-      {
-        const std::string said = error.what();
-        return said.substr(std::min(said.size(), file.string().size()));
-      }
-    return "not refused";
+    const std::string said = refusal([&] { read_reference(file, test_kinds()); });
+    return said.substr(std::min(said.size(), file.string().size()));
   };
-  const auto of_experiment = [&](const std::string& entries) { return refusal("{\"experiment\": {" + entries + "}}"); };
-  const auto expect = [](const std::string& said, const std::string& words) {
-    EXPECT_NE(said.find(words), std::string::npos) << said;
+  const auto of_experiment = [&](const std::string& entries) {
+    return refusal_of("{\"experiment\": {" + entries + "}}");
   };
-  expect(refusal("{\n  \"experiment\": {\n}"), ":3:2: is not valid JSON");
-  expect(refusal("{}"), "experiment is missing");
+  const auto expect = [](const std::string& said, const std::string& words) { EXPECT_TRUE(has(said, words)); };
+  expect(refusal_of("{\n  \"experiment\": {\n}"), ":3:2: is not valid JSON");
+  expect(refusal_of("{}"), "experiment is missing");
   expect(of_experiment(""), "experiment: has no property; give one, such as uniaxial_compressive_strength_MPa");
   expect(of_experiment(R"("label": "a rock")"), "experiment: has no property");
-  expect(refusal(R"({"experiment": {}, "model": {}})"), "model: no such key; there are rock, citation, experiment");
+  expect(refusal_of(R"({"experiment": {}, "model": {}})"), "model: no such key; there are rock, citation, experiment");
   expect(of_experiment(R"("tensil_strength_MPa": 9)"),
          "experiment/tensil_strength_MPa: no such property; there are density_kg_per_m3, tensile_strength_MPa");
   for (const char* const pressure : {"depth", "inf", "nan", "1e999"})

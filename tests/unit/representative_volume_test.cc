@@ -4,17 +4,13 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <cstring>
-
 /// The RVE beyond its first crack: tangents, balances, and that trying is not doing.
 namespace feldspar
 {
 namespace
 {
-template <typename Case>
-class Rves : public testing::Test
-{
-};
+template <typename>
+using Rves = testing::Test;
 TYPED_TEST_SUITE(Rves, Dimensions);
 
 /// FNV-1a over all an RVE keeps.
@@ -128,8 +124,7 @@ TYPED_TEST(Rves, TangentIsThatOfADirectSolution)
           const Stiffness<dim> tangent = equilibrium.tangent();
           EXPECT_LT(relative(tangent, direct.stiffness), 1e-8);
           EXPECT_EQ(tangent, tangent.transpose());
-          EXPECT_LT(relative(equilibrium.affine_tangent(), direct.affine_stiffness), 1e-12);
-          const Stiffness<dim> difference = equilibrium.affine_tangent() - tangent;
+          const Stiffness<dim> difference = direct.affine_stiffness - tangent;
           EXPECT_GT(difference.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
           if (!pressed)
             {

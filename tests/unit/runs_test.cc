@@ -6,6 +6,7 @@
 #include "tests/temporary_folder.h"
 #include "tests/unit/same_bits.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,8 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
+
 namespace fs = std::filesystem;
 using tests::TemporaryFolder;
 
@@ -56,6 +59,15 @@ public:
 
 constexpr std::size_t all_rows = 1000000;
 
+LaboratoryOrder order_of(const TestParameters& parameters, const std::string& name,
+                         const TestCase& test_case = {uniaxial_compression.kind})
+{
+  static const DynamicsParameters dynamics;
+  LaboratoryOrder order{test_case, &parameters, &dynamics};
+  order.name = name;
+  return order;
+}
+
 Specimen<2> again(const std::size_t /*number*/) { return small_specimen(1, 0.2); }
 
 std::vector<FinishedTest> run(const std::vector<LaboratoryOrder>& orders, const TemporaryFolder& folder,
@@ -69,9 +81,7 @@ std::vector<FinishedTest> run(const std::vector<LaboratoryOrder>& orders, const 
 TEST(Runs, AnObserverEndsALaboratoryRunAndALaterOneGoesOnToTheSameBits)
 {
   const TestParameters parameters = quick_compression();
-  const DynamicsParameters dynamics;
-  LaboratoryOrder order{{uniaxial_compression.kind}, &parameters, &dynamics};
-  order.name = "compression";
+  LaboratoryOrder order = order_of(parameters, "compression");
   order.identity = "this test";
 
   const TemporaryFolder at_once;
@@ -100,7 +110,7 @@ TEST(Runs, AnObserverEndsALaboratoryRunAndALaterOneGoesOnToTheSameBits)
   in_parts.write("checkpoints/compression.h5", "torn");
   Patience nothing_torn(all_rows);
   EXPECT_EQ(run({order}, in_parts, nothing_torn).front().record.curve.size(), patient.n_rows + at_rest);
-  EXPECT_NE(nothing_torn.back.find("compression.h5: "), std::string::npos) << nothing_torn.back;
+  EXPECT_TRUE(has(nothing_torn.back, "compression.h5: "));
   EXPECT_TRUE(nothing_torn.back.ends_with("; going back to the checkpoint before it")) << nothing_torn.back;
 
   Patience nothing_left(all_rows);
@@ -147,10 +157,9 @@ TEST(Runs, TheLastTestOfASpecimenTakesItsGrains)
 {
   TestParameters parameters = quick_compression();
   parameters.stop_strain = 5e-4;
-  const DynamicsParameters dynamics;
-  std::vector<LaboratoryOrder> orders(3, {{uniaxial_compression.kind}, &parameters, &dynamics});
-  for (std::size_t k = 0; k < orders.size(); ++k)
-    orders[k].name = "compression_" + std::to_string(k);
+  std::vector<LaboratoryOrder> orders;
+  for (const char* const name : {"compression_0", "compression_1", "compression_2"})
+    orders.push_back(order_of(parameters, name));
 
   const TemporaryFolder folder, folder_of_one;
   Patience patient(all_rows), patient_with_one(all_rows);
@@ -173,8 +182,7 @@ TEST(Runs, TheLastTestOfASpecimenTakesItsGrains)
 TEST(Runs, WhereTheEndIsWantedNoTestBegins)
 {
   const TestParameters parameters = quick_compression();
-  const DynamicsParameters dynamics;
-  const LaboratoryOrder order{{uniaxial_compression.kind}, &parameters, &dynamics};
+  const LaboratoryOrder order = order_of(parameters, "");
   const TemporaryFolder folder;
   Patience none(0);
   EXPECT_TRUE(run({order, order}, folder, none).empty());
@@ -186,11 +194,8 @@ TEST(Runs, OneTestThatCannotBeMadeDoesNotCostTheOthers)
 {
   TestParameters parameters = quick_compression();
   parameters.stop_strain = 5e-4;
-  const DynamicsParameters dynamics;
-  LaboratoryOrder good{{uniaxial_compression.kind}, &parameters, &dynamics};
-  good.name = "good";
-  LaboratoryOrder bad{{triaxial_compression.kind, 1e12}, &parameters, &dynamics};
-  bad.name = "bad";
+  const LaboratoryOrder good = order_of(parameters, "good");
+  const LaboratoryOrder bad = order_of(parameters, "bad", {triaxial_compression.kind, 1e12});
   const TemporaryFolder folder;
   Patience patient(all_rows);
   const auto tests = run({bad, good}, folder, patient);

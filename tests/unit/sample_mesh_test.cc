@@ -1,7 +1,9 @@
 #include "fem/materials/linear_elasticity.h"
 #include "fem/solid/platens.h"
 #include "fem/solid/solid.h"
+#include "tests/fem_samples.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
@@ -21,15 +23,7 @@ std::string complaint(const std::string& content)
 {
   const tests::TemporaryFolder folder;
   folder.write("mesh.msh", content);
-  try
-    {
-      read_gmsh<dim>(MPI_COMM_WORLD, folder.path() / "mesh.msh", 0);
-    }
-  catch (const MeshError& error)
-    {
-      return error.what();
-    }
-  return "";
+  return tests::refusal<MeshError>([&] { read_gmsh<dim>(MPI_COMM_WORLD, folder.path() / "mesh.msh", 0); });
 }
 
 /// Two unit squares side by side; bottom, top and right have names. Format 2.
@@ -60,8 +54,7 @@ TEST(GmshMesh, BringsItsNamedBoundaries)
   Solid<2> solid(mesh, {}, linear_elasticity<2>(isotropic_stiffness<2>(1e9, 0.0)));
   auto load = PlatenTest<2>{.platens = Platens::rough}.pressing(-1e-3);
   load.pressures.clear(); // this mesh has no boundary named left
-  ASSERT_TRUE(solid.solve(load).converged);
-  solid.accept();
+  solve_and_accept(solid, load);
   EXPECT_NEAR(solid.reaction("top", 1), -1e9 * 1e-3 * 2.0, 1.0);
   EXPECT_NEAR(solid.mean_displacement("right", 1), -0.5e-3, 1e-12);
 }
@@ -87,15 +80,8 @@ TEST(GmshMesh, SaysInOneLineWhatIsWrong)
 TEST(SampleMesh, SaysWhichBoundariesThereAre)
 {
   const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 4}, 0);
-  try
-    {
-      mesh.boundary("upper");
-      FAIL();
-    }
-  catch (const MeshError& error)
-    {
-      EXPECT_STREQ(error.what(), "no boundary is named upper; the mesh has bottom, left, right, top");
-    }
+  EXPECT_EQ(tests::refusal<MeshError>([&] { mesh.boundary("upper"); }),
+            "no boundary is named upper; the mesh has bottom, left, right, top");
   Solid<2> solid(mesh, {}, linear_elasticity<2>(isotropic_stiffness<2>(1e9, 0.0)));
   auto load = PlatenTest<2>().pressing(-1e-4);
   load.pressures = {{"side", 1e6}};

@@ -1,12 +1,12 @@
 #include "report/pictures/figures.h"
 
-#include "base/input_error.h"
 #include "base/system/hdf5_archive.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/pictures/rves.h"
 #include "results/folder/result_folder.h"
 #include "results/sample_fields.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -24,6 +24,7 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
 using tests::TemporaryFolder;
 
 /// Squares or cubes of 10 mm, two in each direction from x = y = z = 0, whose top is lifted by 0.1 mm. Every node is of
@@ -99,8 +100,7 @@ TEST(SamplePicture, DrawsCellsAsTheyAreDisplacedAndSaysHowMuch)
   const Chart chart = picture.panels.at(0);
   EXPECT_EQ(n_cells(chart), 4u);
   // Lifted by 0.1 mm of 20: to be seen as at most 6 %, which is 12 times, round: 10 times.
-  EXPECT_NE(picture.caption.find("displacements drawn 10 times"), std::string::npos) << picture.caption;
-  EXPECT_NE(picture.caption.find("at the end"), std::string::npos) << picture.caption;
+  EXPECT_TRUE(has(picture.caption, "displacements drawn 10 times", "at the end"));
   double highest = 0.0;
   for (const auto& row : points_of(chart, outline))
     highest = std::max(highest, row.at(1));
@@ -119,13 +119,12 @@ TEST(SamplePicture, HasTheColoursOfItsOwnCells)
   const Picture alike = sample_picture(test_with(fields), "Direct tension").at(0);
   EXPECT_NEAR(alike.panels.at(0).colour.from.value(), 3.0, 1e-9);
   EXPECT_NEAR(alike.panels.at(0).colour.to.value(), 3.25, 1e-9);
-  EXPECT_NE(alike.caption.find("from the least share, 3 %, to the largest, 3.25 %"), std::string::npos)
-    << alike.caption;
+  EXPECT_TRUE(has(alike.caption, "from the least share, 3 %, to the largest, 3.25 %"));
   // One share for all cells leaves a scale with room.
   fields.of_each_cell["broken_segments_share"] = {0.03, 0.03, 0.03, 0.03};
   const Picture same = sample_picture(test_with(fields), "Direct tension").at(0);
   EXPECT_LT(same.panels.at(0).colour.from.value(), same.panels.at(0).colour.to.value());
-  EXPECT_NE(same.caption.find("All cells have the same share, 3 %"), std::string::npos) << same.caption;
+  EXPECT_TRUE(has(same.caption, "All cells have the same share, 3 %"));
 }
 
 TEST(SamplePicture, HasEveryFieldOfItsCellsForThePage)
@@ -168,7 +167,7 @@ TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)
 {
   auto test = test_with(blocks(2));
   test.appearance.fields.n_rows = 12;
-  EXPECT_NE(sample_picture(test, "Direct tension").at(0).caption.find("at row 12 of 31"), std::string::npos);
+  EXPECT_TRUE(has(sample_picture(test, "Direct tension").at(0).caption, "at row 12 of 31"));
 }
 
 TEST(SamplePicture, OutlinesWhatHasLocalisedWhereTheFieldsKnow)
@@ -326,26 +325,16 @@ TEST(SampleFieldsFile, IsReadAsItLiesThere)
   EXPECT_EQ(read.cells, wanted.cells);
   EXPECT_EQ(read.of_each_cell.at("broken_segments_share"), wanted.of_each_cell.at("broken_segments_share"));
 
-  const auto objection = [&] {
-    try
-      {
-        read_sample_fields(folder.path(), "test");
-        return std::string();
-      }
-    catch (const InputError& error)
-      {
-        return std::string(error.what());
-      }
-  };
+  const auto objection = [&] { return tests::refusal([&] { read_sample_fields(folder.path(), "test"); }); };
   displacement.pop_back();
   write_fields(share);
-  EXPECT_NE(objection().find("its arrays differ in length"), std::string::npos) << objection();
+  EXPECT_TRUE(has(objection(), "its arrays differ in length"));
   std::filesystem::remove(folder.path() / "test-0001.h5");
-  EXPECT_NE(objection().find("test-0001.h5: cannot be read: No such file"), std::string::npos) << objection();
+  EXPECT_TRUE(has(objection(), "test-0001.h5: cannot be read: No such file"));
   folder.write("test.xdmf", index_of(attributes).substr(0, 300));
-  EXPECT_NE(objection().find("test.xdmf: not XDMF"), std::string::npos) << objection();
+  EXPECT_TRUE(has(objection(), "test.xdmf: not XDMF"));
   std::filesystem::remove(folder.path() / "test.xdmf");
-  EXPECT_NE(objection().find("test.xdmf: cannot be read: No such file"), std::string::npos) << objection();
+  EXPECT_TRUE(has(objection(), "test.xdmf: cannot be read: No such file"));
 }
 
 TEST(ResultFolder, KeepsTheRvesOfASample)
@@ -373,10 +362,7 @@ TEST(ResultFolder, KeepsTheRvesOfASample)
   std::filesystem::remove(folder.path() / "points/direct_tension_seed_1_cell_3_point_1_grains.csv");
   const auto without = read_result_folder(folder.path(), test_kinds());
   EXPECT_TRUE(without.at(0).tests.at(0).appearance.rves.empty());
-  const auto& problems = without[0].problems;
-  EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const std::string& problem) {
-    return problem.find("point_1_grains.csv: cannot be read: No such file") != std::string::npos;
-  }));
+  EXPECT_TRUE(has(tests::joined(without[0].problems), "point_1_grains.csv: cannot be read: No such file"));
 }
 } // namespace
 } // namespace feldspar

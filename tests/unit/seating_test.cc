@@ -1,17 +1,16 @@
 // Walls that hold a specimen before its test counts.
 
-#include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "laboratory/loading_stages.h"
-#include "results/evaluation.h"
 #include "results/runs/run.h"
 #include "results/runs/trust.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/unit/whole_tests.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -19,6 +18,8 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
+
 /// In a box that is so much larger [m]: at the lower and the upper end and at each side.
 template <int dim>
 Specimen<dim> in_larger_box(Specimen<dim> specimen, const double below, const double above, const double beside = 0.0)
@@ -37,15 +38,9 @@ template <int dim>
 std::string refusal(const LaboratoryProtocol& protocol, const Specimen<dim>& specimen,
                     const TestParameters& wanted = {})
 {
-  try
-    {
-      LabTest<dim>({protocol, protocol.kind.takes_confining_pressure ? 5e6 : 0.0}, specimen, wanted, {});
-    }
-  catch (const InputError& error)
-    {
-      return error.what();
-    }
-  return "";
+  return tests::refusal([&] {
+    LabTest<dim>({protocol, protocol.kind.takes_confining_pressure ? 5e6 : 0.0}, specimen, wanted, {});
+  });
 }
 
 /// Loaded to this row of the curve.
@@ -114,15 +109,14 @@ TEST(Seating, RefusesABodyThatDoesNotFillItsBox)
     {
       SCOPED_TRACE(protocol->kind.name);
       const std::string above = refusal(*protocol, in_larger_box(specimen, 0.0, 1e-3), pressed_by_a_table());
-      EXPECT_NE(above.find("lower end 0 mm, upper end 1 mm, left side 0 mm, right side 0 mm"), std::string::npos)
-        << above;
-      EXPECT_EQ(above.find('\n'), std::string::npos);
+      EXPECT_TRUE(has(above, "lower end 0 mm, upper end 1 mm, left side 0 mm, right side 0 mm"));
+      EXPECT_FALSE(has(above, "\n"));
       const std::string beside = refusal(*protocol, in_larger_box(specimen, 0.0, 0.0, 2e-3), pressed_by_a_table());
-      EXPECT_NE(beside.find("left side 2 mm, right side 2 mm"), std::string::npos) << beside;
+      EXPECT_TRUE(has(beside, "left side 2 mm, right side 2 mm"));
     }
   EXPECT_EQ(refusal(uniaxial_compression, in_larger_box(specimen, 0.0, 0.45 * radius)), "");
   const std::string round = refusal(triaxial_compression, in_larger_box(small_cylinder(), 0.0, 0.0, 1e-3));
-  EXPECT_NE(round.find("round side 0.999 mm"), std::string::npos) << round; // a grain lies in its wall by a micrometre
+  EXPECT_TRUE(has(round, "round side 0.999 mm")); // a grain lies in its wall by a micrometre
 }
 
 TEST(Seating, RefusesABodyInTwoPieces)
@@ -143,9 +137,8 @@ TEST(Seating, RefusesABodyInTwoPieces)
   specimen.size[1] += 1e-4;
   for (const LaboratoryProtocol* const protocol :
        {&uniaxial_compression, &triaxial_compression, &direct_shear, &own_loading})
-    EXPECT_NE(refusal(*protocol, specimen, pressed_by_a_table()).find("goes right through"), std::string::npos)
-      << protocol->kind.name;
-  EXPECT_NE(refusal(direct_tension, specimen).find("no bonds lead from one grip to the other"), std::string::npos);
+    EXPECT_TRUE(has(refusal(*protocol, specimen, pressed_by_a_table()), "goes right through")) << protocol->kind.name;
+  EXPECT_TRUE(has(refusal(direct_tension, specimen), "no bonds lead from one grip to the other"));
 }
 
 TEST(Seating, IsToldInTheVerdict)
@@ -154,15 +147,13 @@ TEST(Seating, IsToldInTheVerdict)
   const auto verdict = [&](const double gap) {
     TestParameters wanted;
     wanted.stop_stress_over_peak = 0.8;
-    LabTest<2> test({uniaxial_compression}, in_larger_box(specimen, 0.0, gap), wanted, {});
-    while (test.advance())
-      ;
     const FinishedTest one =
-      finished(test.finish(false), "uniaxial_compression", "uniaxial_compression_seed_1", "", {});
+      finished(tests::outcome_of<2>({uniaxial_compression}, in_larger_box(specimen, 0.0, gap), wanted),
+               "uniaxial_compression", "uniaxial_compression_seed_1", "", {});
     return shortcomings({&one}, SeriesKind::specimens).front();
   };
-  EXPECT_EQ(verdict(0.0).find("brought"), std::string::npos);
-  EXPECT_NE(verdict(2e-4).find("walls were brought to the grains by up to 0.2 mm"), std::string::npos);
+  EXPECT_FALSE(has(verdict(0.0), "brought"));
+  EXPECT_TRUE(has(verdict(2e-4), "walls were brought to the grains by up to 0.2 mm"));
 }
 
 // The outermost grain of this disc has no bond: held as its pad it was driven through the disc, which carried nothing

@@ -6,11 +6,9 @@
 #include "dem/flaws/apply.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/bending.h"
-#include "dem/lab/protocols/brazilian.h"
-#include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/grips.h"
+#include "dem/lab/protocols/parameters.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/protocols/tilt.h"
 #include "dem/lab/surroundings.h"
 #include "dem/sharing/body_share.h"
 #include "laboratory/compression.h"
@@ -18,6 +16,7 @@
 #include "tests/temporary_folder.h"
 #include "tests/thread_partners.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +25,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -139,12 +137,21 @@ Measured alone(const LaboratoryCase& which, const Specimen<dim>& specimen, const
   return measured(test);
 }
 
+/// More cracks than `least`; numbers as of `led`.
+template <int dim>
+void expect_the_bits_of_one_process(const LaboratoryCase& which, const Specimen<dim>& specimen,
+                                    const TestParameters& wanted, const std::size_t least, const unsigned int n_before,
+                                    const std::size_t n_rows, const unsigned int n_after)
+{
+  SCOPED_TRACE(which.protocol.kind.name);
+  const Measured one = alone<dim>(which, specimen, wanted);
+  ASSERT_GT(one.cracks.size(), least);
+  expect_same(one, led<dim>(which, specimen, wanted, n_before, n_rows, n_after));
+}
+
 TEST(SharedBody, TensionInThePlaneHasTheBitsOfOneProcess)
 {
-  const auto specimen = small_specimen();
-  const Measured one = alone<2>({direct_tension}, specimen, quick());
-  ASSERT_GT(one.cracks.size(), 10u);
-  expect_same(one, led<2>({direct_tension}, specimen, quick(), 2, 10, 3));
+  expect_the_bits_of_one_process<2>({direct_tension}, small_specimen(), quick(), 10, 2, 10, 3);
 }
 
 TEST(SharedBody, CompressionInThePlaneHasTheBitsOfOneProcess)
@@ -160,23 +167,14 @@ TEST(SharedBody, UnderServoAndMembraneHasTheBitsOfOneProcess)
 {
   const auto specimen = small_specimen();
   for (const LateralBoundary boundary : {LateralBoundary::wall, LateralBoundary::membrane})
-    {
-      const LaboratoryCase confined{triaxial_compression, 20e6};
-      const Measured one = alone<2>(confined, specimen, quick(boundary));
-      ASSERT_GT(one.cracks.size(), 50u);
-      expect_same(one, led<2>(confined, specimen, quick(boundary), 2, 40, 5));
-    }
+    expect_the_bits_of_one_process<2>({triaxial_compression, 20e6}, specimen, quick(boundary), 50, 2, 40, 5);
 }
 
 TEST(SharedBody, CylinderHasTheBitsOfOneProcess)
 {
   const auto specimen = small_cylinder();
   for (const LaboratoryCase& which : {LaboratoryCase{direct_tension}, LaboratoryCase{triaxial_compression, 10e6}})
-    {
-      const Measured one = alone<3>(which, specimen, quick());
-      ASSERT_GT(one.cracks.size(), 10u);
-      expect_same(one, led<3>(which, specimen, quick(), 3, 20, 2));
-    }
+    expect_the_bits_of_one_process(which, specimen, quick(), 10, 3, 20, 2);
 }
 
 TEST(SharedBody, DiscPlateAndShearBoxHaveTheBitsOfOneProcess)
@@ -189,11 +187,7 @@ TEST(SharedBody, DiscPlateAndShearBoxHaveTheBitsOfOneProcess)
   wanted.of<BrazilianParameters>().sampling_strain = 1e-5;
   for (const LaboratoryCase& which :
        {LaboratoryCase{brazilian}, LaboratoryCase{centre_cracked_plate}, LaboratoryCase{direct_shear, 5e6}})
-    {
-      const Measured one = alone<2>(which, specimen, wanted);
-      ASSERT_GT(one.cracks.size(), 5u) << which.protocol.kind.name;
-      expect_same(one, led<2>(which, specimen, wanted, 2, 20, 3));
-    }
+    expect_the_bits_of_one_process(which, specimen, wanted, 5, 2, 20, 3);
 }
 
 TEST(SharedBody, WithAClosedFlawAndAHoleHasTheBitsOfOneProcess)
@@ -201,9 +195,7 @@ TEST(SharedBody, WithAClosedFlawAndAHoleHasTheBitsOfOneProcess)
   auto specimen = granite_box(0.016, 0.024);
   put_in_flaws<2>(specimen,
                   {ClosedFlaw{{{0.004, 0.014}, {0.012, 0.010}}}, EllipseHole{{0.008, 0.006}, {0.002, 0.001}}});
-  const Measured one = alone<2>({uniaxial_compression}, specimen, quick());
-  ASSERT_GT(one.cracks.size(), 50u);
-  expect_same(one, led<2>({uniaxial_compression}, specimen, quick(), 3, 40, 3));
+  expect_the_bits_of_one_process<2>({uniaxial_compression}, specimen, quick(), 50, 3, 40, 3);
 }
 
 /// Two bonded smooth joints across a box.
@@ -342,11 +334,7 @@ TEST(SharedBody, BentBetweenPlatesThatPivotHasTheBitsOfOneProcess)
   wanted.of<BendingParameters>().strain_rate = 0.5;
   wanted.of<BendingParameters>().sampling_strain = 1e-5;
   for (const LaboratoryCase& which : {LaboratoryCase{three_point_bending}, LaboratoryCase{semicircular_bending}})
-    {
-      const Measured one = alone<2>(which, specimen, wanted);
-      ASSERT_GT(one.cracks.size(), 2u) << which.protocol.kind.name;
-      expect_same(one, led<2>(which, specimen, wanted, 2, 20, 3));
-    }
+    expect_the_bits_of_one_process(which, specimen, wanted, 2, 2, 20, 3);
 }
 
 TEST(SharedBody, UnderGravityAndTiltedHasTheBitsOfOneProcess)
@@ -367,10 +355,7 @@ TEST(SharedBody, LedByItsLateralStrainHasTheBitsOfOneProcess)
   wanted.of<LoadingTable>().stages = {{.axial_stress = 40e6, .confining_pressure = 5e6},
                                       {.lateral_strain = -4e-4, .confining_pressure = 5e6},
                                       {.axial_strain = 6e-3, .confining_pressure = 10e6}};
-  const auto specimen = small_specimen();
-  const Measured one = alone<2>({own_loading}, specimen, wanted);
-  ASSERT_GT(one.cracks.size(), 20u);
-  expect_same(one, led<2>({own_loading}, specimen, wanted, 2, 20, 3));
+  expect_the_bits_of_one_process<2>({own_loading}, small_specimen(), wanted, 20, 2, 20, 3);
 }
 
 TEST(SharedBody, RefusesByNameWhatIsNotSharedYet)
@@ -381,15 +366,8 @@ TEST(SharedBody, RefusesByNameWhatIsNotSharedYet)
   std::iota(specimen.groups.begin(), specimen.groups.end(), 0u);
   ThreadPartners(2).run([&](Partners& partners) {
     LabTest<2> test({uniaxial_compression}, specimen, quick(), {});
-    try
-      {
-        test.share(partners);
-        ADD_FAILURE() << "it is shared";
-      }
-    catch (const InputError& error)
-      {
-        EXPECT_STREQ(error.what(), "a body of clumps cannot be computed by several processes together yet");
-      }
+    EXPECT_EQ(tests::refusal([&] { test.share(partners); }),
+              "a body of clumps cannot be computed by several processes together yet");
   });
 }
 } // namespace

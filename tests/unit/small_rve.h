@@ -3,31 +3,28 @@
 #include "base/random.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/representative_volume.h"
-#include "dem/genesis/genesis.h"
+#include "tests/unit/small_specimen.h"
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <type_traits>
 
 /// Periodic specimens for tests that need one quickly, and oracles for the responses of their networks.
 namespace feldspar
 {
-/// For tests of both kinds: TYPED_TEST_SUITE(Suite, Dimensions).
-template <int n>
-using Dimension = std::integral_constant<int, n>;
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-
 /// Table 1 in a periodic cell: some 50 grains in 12 × 12 mm, 96 in 16 × 16 mm; 50 spheres in 6 × 6 × 6 mm.
-template <int dim = 2>
-Specimen<dim> periodic_specimen(const std::uint64_t seed = 1, const double edge = dim == 2 ? 0.012 : 0.006)
+template <int dim = 2, typename Joint = FlatJointParameters>
+Specimen<dim> periodic_specimen(const std::uint64_t seed = 1, const double edge = dim == 2 ? 0.012 : 0.006,
+                                Joint joint = Joint())
 {
   SpecimenParameters wanted;
   wanted.shape = BodyShape::periodic;
   wanted.width = edge;
   wanted.height = edge;
-  FlatJointParameters joint;
   if constexpr (dim == 2)
     joint.coordination_number = 4.2;
   else
@@ -54,6 +51,50 @@ template <int dim>
 Voigt<dim> axial(const double strain)
 {
   return strain * Voigt<dim>::Unit(dim - 1);
+}
+
+/// Strained along the last axis; nothing holds the other sides.
+template <int dim>
+Control<dim> with_free_sides(const double strain)
+{
+  Control<dim> control;
+  control.stress_given.fill(true);
+  control.stress_given[dim - 1] = false;
+  control.strain[dim - 1] = strain;
+  return control;
+}
+
+/// A run gone to its end.
+template <typename Run>
+Run at_end(Run run)
+{
+  while (!run.has_ended())
+    run.advance();
+  return run;
+}
+
+/// The largest stress along the last axis, whatever its sign.
+template <typename Record>
+double highest_axial_stress(const Record& record)
+{
+  double highest = 0.0;
+  for (const auto& sample : record.samples)
+    highest = std::max(highest, std::abs(sample.stress[sample.stress.size() == 3 ? 1 : 2]));
+  return highest;
+}
+
+/// The balances that hold at every sample of a path, whatever breaks, slides or closes.
+template <typename Record>
+void expect_balances(const Record& record)
+{
+  EXPECT_EQ(record.failure, "");
+  constexpr double tolerance = EquilibriumParameters{}.final_tolerance;
+  for (const auto& sample : record.samples)
+    {
+      EXPECT_LE(sample.unbalanced_ratio, tolerance);
+      EXPECT_LE(sample.energy_imbalance(), 1e-3);
+      EXPECT_LE(sample.hill_mandel_residual, 10.0 * tolerance);
+    }
 }
 
 /// No component is nothing, none is another.
@@ -110,6 +151,13 @@ Voigt<dim> random_direction(Random& random)
   return direction.normalized();
 }
 
+/// Forces of the links of a network in small strains, at one of its states.
+template <int dim>
+LinkForces<dim> link_forces(const Network<dim>& network, const NetworkState<dim>& state)
+{
+  return Equilibrium<dim>(network, state, {}).link_forces();
+}
+
 /// The derivative of the forces of a link, by differences about a motion.
 template <int dim>
 JointStiffness<dim> derivative_by_differences(const Network<dim>& network, const ActiveLink<dim>& active,
@@ -127,6 +175,16 @@ JointStiffness<dim> derivative_by_differences(const Network<dim>& network, const
   return derivative;
 }
 
+/// Expects it of the response there. Forces of some 1e4 N are good to 1e-16 of them, over 2e-12 m.
+template <int dim>
+void expect_derivative_of_differences(const LinkResponse<dim>& found, const Network<dim>& network,
+                                      const ActiveLink<dim>& active, const Motion<dim>& motion)
+{
+  const JointStiffness<dim> slopes = derivative_by_differences(network, active, motion);
+  for (int c = 0; c < n_motions<dim>; ++c)
+    EXPECT_LT((found.derivative.col(c) - slopes.col(c)).norm(), 1e-4 * found.derivative.col(c).norm() + 10.0) << c;
+}
+
 /// |found - expected| / |expected|.
 template <typename Found, typename Expected>
 double relative(const Eigen::MatrixBase<Found>& found, const Eigen::MatrixBase<Expected>& expected)
@@ -140,12 +198,12 @@ double relative(const Eigen::MatrixBase<Found>& found, const Eigen::MatrixBase<E
 template <int dim>
 struct DirectSolution
 {
-  DirectSolution(const Network<dim>& of, const std::vector<JointStiffness<dim>>& link_stiffnesses)
+  DirectSolution(const Network<dim>& of, const LinkStiffnesses<dim>& link_stiffnesses)
     : DirectSolution(of, link_stiffnesses, *of.conditions())
   {
   }
 
-  DirectSolution(const Network<dim>& of, const std::vector<JointStiffness<dim>>& link_stiffnesses,
+  DirectSolution(const Network<dim>& of, const LinkStiffnesses<dim>& link_stiffnesses,
                  const BoundaryConditions<dim>& conditions)
     : network(of)
   {
@@ -157,7 +215,8 @@ struct DirectSolution
         const Unknowns unit = Unknowns::Unit(n, c);
         Unknowns column = Unknowns::Zero(n);
         for (std::size_t k = 0; k < link_stiffnesses.size(); ++k)
-          add_forces<dim>(network.links()[k], link_stiffnesses[k] * link_motion(network.links()[k], unit), column);
+          if (link_stiffnesses[k])
+            add_forces<dim>(network.links()[k], *link_stiffnesses[k] * link_motion(network.links()[k], unit), column);
         all.col(c) = column;
       }
     const Eigen::Index n_own = n - n_strains;
@@ -216,11 +275,11 @@ struct DirectSolution
 };
 
 template <int dim>
-std::vector<JointStiffness<dim>> intact_stiffnesses(const Network<dim>& network)
+LinkStiffnesses<dim> intact_stiffnesses(const Network<dim>& network)
 {
-  std::vector<JointStiffness<dim>> result;
+  LinkStiffnesses<dim> result;
   for (std::size_t j = 0; j < network.n_joints(); ++j)
-    result.push_back(network.bonded_stiffness(j));
+    result.push_back(&network.bonded_stiffness(j));
   return result;
 }
 } // namespace feldspar

@@ -7,7 +7,7 @@
 #include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/smooth_planes.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/protocols/direct_shear.h"
+#include "dem/lab/protocols/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_file.h"
@@ -17,6 +17,9 @@
 #include "tests/temporary_folder.h"
 #include "tests/unit/same_bits.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/unit/taken_up.h"
+#include "tests/unit/whole_tests.h"
+#include "tests/words.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -27,12 +30,13 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <string>
 
 namespace feldspar
 {
 namespace
 {
+using tests::has;
+
 constexpr double degree = std::numbers::pi / 180.0;
 
 SmoothJointParameters test_plane()
@@ -160,16 +164,11 @@ TEST(SmoothJoint, ASteeperDilationThanItsFrictionIsRefused)
   wanted.dilation_angle = 30.9 * degree; // atan 0.6 = 30.96°
   EXPECT_EQ(objection(wanted), "");
   wanted.dilation_angle = 31.1 * degree;
-  EXPECT_NE(objection(wanted).find("at most the angle of friction"), std::string::npos);
+  EXPECT_TRUE(has(objection(wanted), "at most the angle of friction"));
 }
 
-template <typename Dimension>
-class SmoothPair : public testing::Test
-{
-};
-template <int n>
-using Dimension = std::integral_constant<int, n>;
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+template <typename>
+using SmoothPair = testing::Test;
 TYPED_TEST_SUITE(SmoothPair, Dimensions);
 
 /// Two unequal grains in contact, and a plane across them that does not lie square to their branch.
@@ -337,18 +336,9 @@ TYPED_TEST(SmoothPair, EndsWhereItsGrainsHaveLostEachOtherUnlessAlongAFlaw)
 }
 
 /// A plane through a specimen of flat joints that hold, its halves like blocks.
-Specimen<2> halves(const SmoothSides& sides, const double width, const double height, const double angle,
-                   const double minimum_radius = 6.2e-4)
+Specimen<2> halves(const SmoothSides& sides, const double width, const double height, const double angle)
 {
-  SpecimenParameters wanted;
-  wanted.width = width;
-  wanted.height = height;
-  wanted.minimum_radius = minimum_radius;
-  FlatJointParameters flat_joint;
-  flat_joint.coordination_number = 4.2;
-  flat_joint.bond_tensile_strength *= 100.0;
-  flat_joint.bond_cohesion *= 100.0;
-  auto specimen = make_specimen<2>(wanted, flat_joint, {}, 1);
+  auto specimen = granite_box(width, height, strengthened(FlatJointParameters(), 100.0));
   const Vector<2> half = 0.5 * width * Vector<2>(1.0, std::tan(angle));
   const Vector<2> middle = 0.5 * specimen.size;
   put_in_flaws(specimen, {ClosedFlaw{{middle - half, middle + half}, sides}});
@@ -370,15 +360,9 @@ TEST(SmoothPlane, SlidesInTheShearBoxByCoulombsLawAndDilatesByItsAngle)
   wanted.stop_strain = 0.001;
   for (const double normal_stress : {2e6, 8e6})
     {
-      LabTest<2> test({direct_shear, normal_stress}, specimen, wanted, {});
-      while (test.advance())
-        ;
-      const TestOutcome outcome = test.finish(false);
+      const TestOutcome outcome = tests::outcome_of<2>({direct_shear, normal_stress}, specimen, wanted);
       ASSERT_EQ(outcome.record.failure, "");
-      double highest = 0.0;
-      for (const CurveSample& row : outcome.record.curve)
-        highest = std::max(highest, direct_shear.kind.stress(row));
-      EXPECT_NEAR(highest, 0.6 * normal_stress, 0.01 * 0.6 * normal_stress);
+      EXPECT_NEAR(tests::highest_stress(outcome.record), 0.6 * normal_stress, 0.01 * 0.6 * normal_stress);
       EXPECT_TRUE(outcome.record.cracks.empty());
       // Means of the upper half over those of the lower, from the first row in which all of the plane slides.
       const auto apart = [&](const int c, const Snapshot& snapshot) {
@@ -429,10 +413,7 @@ TEST(SmoothPlane, IsPressedBackAsItDilatesByTheStiffnessOfTheRockAround)
 {
   const auto [sides, specimen, wanted] = plane_in_stiff_rock();
   constexpr double normal_stress = 2e6;
-  LabTest<2> test({direct_shear, normal_stress}, specimen, wanted, {});
-  while (test.advance())
-    ;
-  const TestOutcome outcome = test.finish(false);
+  const TestOutcome outcome = tests::outcome_of<2>({direct_shear, normal_stress}, specimen, wanted);
   ASSERT_EQ(outcome.record.failure, "");
   const auto& curve = outcome.record.curve;
   const std::size_t first = curve.size() / 3; // all of the plane slides
@@ -458,19 +439,12 @@ TEST(SmoothPlane, IsPressedBackAsItDilatesByTheStiffnessOfTheRockAround)
 
 TEST(SmoothPlane, InStiffRockTakenUpGoesOnToTheSameBits)
 {
-  auto [sides, specimen, wanted] = plane_in_stiff_rock();
-  wanted.stop_strain = 0.0005;
-  const LaboratoryCase sheared{direct_shear, 2e6};
-  LabTest<2> whole(sheared, specimen, wanted, {});
-  for (int row = 0; row < 15; ++row)
-    ASSERT_TRUE(whole.advance());
-  const tests::TemporaryFolder folder;
-  whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<2> taken_up(sheared, specimen, wanted, {});
-  taken_up.read_checkpoint(folder.path() / "test.h5", "one");
-  while (whole.advance())
-    ASSERT_TRUE(taken_up.advance());
-  EXPECT_FALSE(taken_up.advance());
+  PlaneInStiffRock plane = plane_in_stiff_rock();
+  plane.wanted.stop_strain = 0.0005;
+  const auto [whole, taken_up] = tests::whole_and_taken_up([&] {
+    return LabTest<2>({direct_shear, 2e6}, plane.specimen, plane.wanted, {});
+  });
+  ASSERT_GT(whole.curve().size(), 15u);
   EXPECT_TRUE(std::ranges::equal(whole.curve(), taken_up.curve(), [](const CurveSample& a, const CurveSample& b) {
     return a.axial_stress == b.axial_stress && a.lateral_stress == b.lateral_stress;
   }));
@@ -526,10 +500,7 @@ TEST(SmoothPlane, OfAnInclinedSpecimenFailsWhereJaegerSays)
   wanted.of<CompressionParameters>().strain_rate = 0.25;
   wanted.stop_strain = 0.006;
   wanted.of<CompressionParameters>().sampling_strain = 1e-5;
-  LabTest<2> test({uniaxial_compression}, specimen, wanted, {});
-  while (test.advance())
-    ;
-  const auto results = evaluate(test.finish(false).record);
+  const auto results = evaluate(tests::outcome_of<2>({uniaxial_compression}, specimen, wanted).record);
   ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
   EXPECT_EQ(results.dilation_angle.reason, "the test shears no plane");
   const double jaeger = 2.0 * 2e6 / ((1.0 - std::tan(30.0 * degree) / std::tan(beta)) * std::sin(2.0 * beta));
@@ -569,12 +540,7 @@ TEST(SmoothPlane, CountsAndPiecesAndRefusals)
 /// 20 × 40 mm of flat joints with mineral grains of 5 mm.
 Specimen<2> minerals(const std::uint64_t seed = 1)
 {
-  SpecimenParameters wanted;
-  wanted.width = 0.020;
-  wanted.height = 0.040;
-  FlatJointParameters flat_joint;
-  flat_joint.coordination_number = 4.2;
-  auto specimen = make_specimen<2>(wanted, flat_joint, {}, seed);
+  auto specimen = granite_box(0.020, 0.040, FlatJointParameters(), seed);
   SmoothJointParameters boundary;
   boundary.tensile_strength = 4e6;
   boundary.cohesion = 60e6;
@@ -618,17 +584,8 @@ TEST(MineralGrains, ThatAreTooSmallTooLargeOrThereAlreadyAreRefused)
   Specimen<2> specimen = small_specimen();
   EXPECT_THROW(put_in_mineral_grains(specimen, {0.0015}, {}), InputError);
   // 1.5 circles of 14.27 mm have the area of 12 × 20 mm; from there on there would be fewer than two.
-  try
-    {
-      put_in_mineral_grains(specimen, {0.050}, {});
-      ADD_FAILURE() << "50 mm was accepted";
-    }
-  catch (const InputError& error)
-    {
-      const std::string what = error.what();
-      EXPECT_NE(what.find("mean_size = 50 mm: must be at most 14.2 mm in this specimen"), std::string::npos) << what;
-      EXPECT_NE(what.find("and at least "), std::string::npos) << what;
-    }
+  EXPECT_TRUE(has(tests::refusal([&] { put_in_mineral_grains(specimen, {0.050}, {}); }),
+                  "mean_size = 50 mm: must be at most 14.2 mm in this specimen", "and at least "));
   Specimen<2> of_two = specimen;
   put_in_mineral_grains(of_two, {0.0142}, {});
   put_in_mineral_grains(specimen, {0.005}, {});
@@ -637,15 +594,7 @@ TEST(MineralGrains, ThatAreTooSmallTooLargeOrThereAlreadyAreRefused)
 
 TEST(MineralGrains, CrackAtTheirBoundariesAndTheEnergiesBalance)
 {
-  LabTest<2> test({uniaxial_compression}, minerals(), quick_compression(), {});
-  double largest_work = 0.0;
-  while (test.advance())
-    {
-      const Energies& energies = test.curve().back().energies;
-      largest_work = std::max(largest_work, energies.boundary_work);
-      EXPECT_LT(std::abs(energies.unaccounted()), 0.005 * largest_work) << test.curve().back().axial_strain;
-    }
-  const auto outcome = test.finish(false);
+  const auto outcome = tests::balanced_outcome_of<2>({uniaxial_compression}, minerals(), quick_compression());
   const auto results = evaluate(outcome.record);
   ASSERT_TRUE(results.smooth_tension_share_at_peak.value) << results.smooth_tension_share_at_peak.reason;
   std::size_t n = 0;
@@ -683,15 +632,7 @@ TEST(MineralGrains, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
     Specimen<2> wrong = specimen;
     spoil(wrong.smooth_joints[3]);
     write_specimen(wrong, file);
-    try
-      {
-        read_specimen<2>(file);
-      }
-    catch (const InputError&)
-      {
-        return true;
-      }
-    return false;
+    return tests::refusal([&] { read_specimen<2>(file); }) != "";
   };
   EXPECT_FALSE(is_refused([](auto&) {}));
   EXPECT_TRUE(is_refused([](auto& joint) { joint.grain_2 = 1000000; }));

@@ -3,14 +3,15 @@
 #include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/bending.h"
-#include "dem/lab/protocols/brazilian.h"
 #include "dem/lab/protocols/grips.h"
+#include "dem/lab/protocols/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
 #include "laboratory/compression.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/unit/whole_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -41,20 +42,16 @@ TestParameters quick_in_space()
   return wanted;
 }
 
-TestOutcome run(LabTest<3>& test)
+TestOutcome quickly(const LaboratoryCase& test, const Specimen<3>& specimen)
 {
-  while (test.advance())
-    ;
-  return test.finish(false);
+  return tests::outcome_of<3>(test, specimen, quick_in_space());
 }
 
 TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
 {
   const auto specimen = small_cylinder();
-  LabTest<3> tension({direct_tension}, specimen, quick_in_space(), {});
-  const auto pulled = evaluate(run(tension).record);
-  LabTest<3> compression({uniaxial_compression}, specimen, quick_in_space(), {});
-  const auto outcome = run(compression);
+  const auto pulled = evaluate(quickly({direct_tension}, specimen).record);
+  const auto outcome = quickly({uniaxial_compression}, specimen);
   const auto& record = outcome.record;
   const auto& snapshots = outcome.appearance.snapshots;
   const auto crushed = evaluate(record);
@@ -78,10 +75,8 @@ TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
 TEST(SpaceLab, ConfinedByAWallItIsStrongerAndTheWorkIsCounted)
 {
   const auto specimen = small_cylinder();
-  LabTest<3> uniaxial({uniaxial_compression}, specimen, quick_in_space(), {});
-  const double alone = *evaluate(run(uniaxial).record).peak_stress.value;
-  LabTest<3> test({triaxial_compression, 20e6}, specimen, quick_in_space(), {});
-  const auto record = run(test).record;
+  const double alone = *evaluate(quickly({uniaxial_compression}, specimen).record).peak_stress.value;
+  const auto record = quickly({triaxial_compression, 20e6}, specimen).record;
   const auto results = evaluate(record);
   ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
   EXPECT_GT(*results.peak_stress.value, alone + 20e6);
@@ -96,7 +91,7 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
   wanted.of<ConfinementParameters>().intermediate_stress = 30e6;
   wanted.stop_strain = 1e-4;
   const auto box = small_cylinder(1, 1e3, BodyShape::box);
-  auto set_up = triaxial_compression.set_up_3d.value()(box, 10e6, wanted, {});
+  auto set_up = triaxial_compression.set_up<3>().value()(box, 10e6, wanted, {});
   EXPECT_EQ(LabTest<3>({triaxial_compression, 10e6}, box, wanted, {}).finish(true).record.intermediate_stress, 30e6);
   EXPECT_FALSE(
     LabTest<3>({triaxial_compression, 30e6}, box, wanted, {}).finish(true).record.intermediate_stress); // the same
@@ -108,25 +103,10 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
   EXPECT_NEAR(stress(2, 2), -10e6, 0.03 * 30e6);
 }
 
-/// Table 1 in a small body of this size [m].
-Specimen<3> granite_in_space(const BodyShape shape, const double width, const double height)
-{
-  SpecimenParameters wanted;
-  wanted.dimension = 3;
-  wanted.shape = shape;
-  wanted.width = width;
-  wanted.height = height;
-  wanted.porosity = 0.40;
-  FlatJointParameters flat_joint;
-  flat_joint.installation_gap_ratio = 0.05;
-  return make_specimen<3>(wanted, flat_joint, {}, 1);
-}
-
 TEST(SpaceLab, SplitsADiscAlongTheLoad)
 {
   const auto specimen = granite_in_space(BodyShape::cylinder, 0.010, 0.008);
-  LabTest<3> test({brazilian}, specimen, quick_in_space(), {});
-  const auto outcome = run(test);
+  const auto outcome = quickly({brazilian}, specimen);
   const auto& record = outcome.record;
   const auto results = evaluate(record);
   ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
@@ -142,18 +122,13 @@ TEST(SpaceLab, SplitsADiscAlongTheLoad)
 /// The protocols whose body, cut out of a specimen of this size, is as large as they say, by name.
 std::vector<std::string> cut_as_said(const double width, const double height)
 {
-  SpecimenParameters wanted;
-  wanted.width = width;
-  wanted.height = height;
-  FlatJointParameters joint;
-  joint.coordination_number = 4.2;
   std::vector<std::string> names;
   for (const LaboratoryProtocol* const protocol : laboratory_protocols())
     if (const auto& size = protocol->body_size<2>())
       for (std::uint64_t seed = 1; seed <= 10; ++seed) // not every disc has grains where it is loaded
         try
           {
-            const auto specimen = make_specimen<2>(wanted, joint, {}, seed);
+            const auto specimen = granite_box(width, height, FlatJointParameters(), seed);
             const TestParameters parameters;
             const auto test = (*protocol->set_up<2>())(specimen, 0.0, parameters, {});
             EXPECT_LT((test.dynamics.specimen().size - (*size)(specimen, parameters)).norm(), 1e-15)
@@ -246,15 +221,18 @@ TEST(SpaceLab, BendsAHalfDiscOnLinesOfGrains)
   EXPECT_NEAR(dynamics.wall_force(0), dynamics.wall_force(1), 0.2 * dynamics.wall_force(0));
 }
 
-void expect_reads_back_to_the_same_bits(const LaboratoryCase& test_case, const Specimen<3>& specimen,
-                                        const TestParameters& wanted)
+TEST(SpaceLab, AHalfDiscOnBeddedRollersReadBackRunsOnToTheSameBits)
 {
+  TestParameters wanted = quick_in_space();
+  wanted.of<BendingParameters>().strain_rate = 0.5;
+  wanted.of<BendingParameters>().sampling_strain = 1e-5;
+  const auto specimen = granite_in_space(BodyShape::box, 0.012, 0.012);
   const tests::TemporaryFolder folder;
-  LabTest<3> whole(test_case, specimen, wanted, {});
+  LabTest<3> whole({semicircular_bending}, specimen, wanted, {});
   for (int k = 0; k < 8; ++k)
     whole.advance();
   whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<3> again(test_case, specimen, wanted, {});
+  LabTest<3> again({semicircular_bending}, specimen, wanted, {});
   again.read_checkpoint(folder.path() / "test.h5", "one");
   for (int k = 0; k < 8; ++k)
     {
@@ -268,14 +246,6 @@ void expect_reads_back_to_the_same_bits(const LaboratoryCase& test_case, const S
   EXPECT_EQ(one.record.curve.back().energies.boundary_work, two.record.curve.back().energies.boundary_work);
   ASSERT_EQ(one.appearance.snapshots.size(), two.appearance.snapshots.size());
   EXPECT_EQ(one.appearance.snapshots.back().position, two.appearance.snapshots.back().position);
-}
-
-TEST(SpaceLab, AHalfDiscOnBeddedRollersReadBackRunsOnToTheSameBits)
-{
-  TestParameters wanted = quick_in_space();
-  wanted.of<BendingParameters>().strain_rate = 0.5;
-  wanted.of<BendingParameters>().sampling_strain = 1e-5;
-  expect_reads_back_to_the_same_bits({semicircular_bending}, granite_in_space(BodyShape::box, 0.012, 0.012), wanted);
 }
 } // namespace
 } // namespace feldspar

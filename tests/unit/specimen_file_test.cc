@@ -3,6 +3,7 @@
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/words.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,8 @@ namespace feldspar
 {
 namespace
 {
+using tests::has;
+
 namespace fs = std::filesystem;
 
 class SpecimenFile : public testing::Test
@@ -24,15 +27,7 @@ protected:
 
   std::string refusal() const
   {
-    try
-      {
-        read_specimen<2>(file);
-      }
-    catch (const InputError& error)
-      {
-        return error.what();
-      }
-    return "";
+    return tests::refusal([&] { read_specimen<2>(file); });
   }
 };
 
@@ -57,10 +52,10 @@ TEST_F(SpecimenFile, ComesBackBitForBit)
 
 TEST_F(SpecimenFile, RefusesMissingForeignAndTruncatedFiles)
 {
-  EXPECT_NE(refusal().find("No such file"), std::string::npos);
+  EXPECT_TRUE(has(refusal(), "No such file"));
 
   std::ofstream(file) << "not HDF5 at all";
-  EXPECT_NE(refusal().find("not an HDF5 file"), std::string::npos) << refusal();
+  EXPECT_TRUE(has(refusal(), "not an HDF5 file"));
 
   write_specimen(small_specimen(), file);
   const auto whole = fs::file_size(file);

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "dem/lab/laboratory_run.h"
-#include "dem/lab/protocols/protocols.h"
 #include "laboratory/loading_stages.h"
+#include "tests/unit/whole_tests.h"
 
 #include <vector>
 
@@ -18,10 +17,7 @@ inline TestParameters following(const std::vector<LoadingStage>& stages)
 template <int dim>
 TestRecord run_stages(const Specimen<dim>& specimen, const TestParameters& wanted)
 {
-  LabTest<dim> test({own_loading}, specimen, wanted, {});
-  while (test.advance())
-    ;
-  return test.finish(false).record;
+  return outcome_of<dim>({own_loading}, specimen, wanted).record;
 }
 
 /// The first two thousandths axially, then by the gauge.

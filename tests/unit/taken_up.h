@@ -24,7 +24,7 @@ auto whole_and_taken_up(const Begin& begin)
           broken.write_checkpoint(file, "the same");
           auto next = begin();
           next.read_checkpoint(file, "the same");
-          broken = next;
+          broken = std::move(next);
         }
     }
   return std::pair(std::move(whole), std::move(broken));

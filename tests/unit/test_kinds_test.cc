@@ -1,21 +1,19 @@
 // A kind of test has the properties that it names and no other.
 
-#include "base/input_error.h"
 #include "base/readable_file.h"
 #include "dem/lab/laboratory_protocol.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/sections/comparison.h"
 #include "results/fits/run_envelopes.h"
-#include "results/fits/strength_data.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -91,8 +89,8 @@ TEST(TestKinds, ThatSayTooLittleAreNoProtocol)
         +[](LaboratoryProtocol& p) { p.kind.sign = TestKind{}.sign; },
         +[](LaboratoryProtocol& p) { p.strain_rate.reset(); },
         +[](LaboratoryProtocol& p) {
-          p.set_up_2d.reset();
-          p.set_up_3d.reset();
+          std::get<0>(p.set_ups).reset();
+          std::get<1>(p.set_ups).reset();
         }})
     {
       LaboratoryProtocol spoilt = whole;
@@ -185,17 +183,16 @@ TEST(TestKinds, OfANameOnlyAreComparedUnderTheirOwnName)
   const std::string text =
     rows({finished(pressing, 30e6), finished(direct_tension.kind, 10e6), finished(uniaxial_compression.kind, 100e6),
           finished(brazilian.kind, 8e6), finished(triaxial_compression.kind, 150e6, 5e6)});
-  for (const char* row :
-       {"tensile strength: 10.0\n", "uniaxial compressive strength: 100.0\n", "strength at 5 MPa confinement: 150.0\n",
-        "Brazilian tensile strength: 8.0\n", "strength in torsion: 30.0\n"})
-    EXPECT_NE(text.find(row), std::string::npos) << row << " in\n" << text;
+  EXPECT_TRUE(has(text, "tensile strength: 10.0\n", "uniaxial compressive strength: 100.0\n",
+                  "strength at 5 MPa confinement: 150.0\n", "Brazilian tensile strength: 8.0\n",
+                  "strength in torsion: 30.0\n"));
 }
 
 TEST(TestKinds, ThatTiltAPlateAreComparedByItsFrictionAngle)
 {
   FinishedTest tilted = finished(tilt.kind, 1e-4);
   tilted.results.sliding_angle = {std::atan(0.6), ""};
-  EXPECT_NE(rows({tilted}).find("friction angle on the plate: 31.0\n"), std::string::npos) << rows({tilted});
+  EXPECT_TRUE(has(rows({tilted}), "friction angle on the plate: 31.0\n"));
 }
 
 TEST(TestKinds, StandInTheOrderOfTheirPlaceInTheEnvelope)
@@ -215,9 +212,7 @@ TEST(TestKinds, OfAFolderThatAreNotKnownAreLeftOutAndNamed)
   const auto series = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(series.size(), 1u);
   EXPECT_EQ(series[0].tests.size(), 1u);
-  EXPECT_EQ(std::count_if(series[0].problems.begin(), series[0].problems.end(),
-                          [](const auto& problem) { return problem.find("of a kind") != std::string::npos; }),
-            1);
+  EXPECT_EQ(times(joined(series[0].problems), "of a kind"), 1u);
   EXPECT_EQ(read_result_folder(folder.path(), {pressing, brazilian.kind})[0].tests.size(), 2u);
 }
 
@@ -231,7 +226,7 @@ TEST(TensileStrength, OfAnEnvelopeSaysFromWhichTestItIs)
       const TemporaryFolder folder;
       write_result_folder({}, tests, fit_each_rock(tests), folder.path());
       const std::string wanted = fmt::format("\"measured_tensile_strength_from\": \"{}\"", pulling.name);
-      EXPECT_NE(content_of(folder.path() / "summary.json").find(wanted), std::string::npos) << wanted;
+      EXPECT_TRUE(has(content_of(folder.path() / "summary.json"), wanted));
     }
 }
 

@@ -6,13 +6,13 @@
 #include "report/pictures/maps/specimen_data.h"
 #include "report/sections/comparison.h"
 #include "results/fits/run_envelopes.h"
-#include "results/fits/strength_data.h"
 #include "results/folder/provenance_json.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/repeats.h"
 #include "results/runs/trust.h"
 #include "tests/content.h"
 #include "tests/temporary_folder.h"
+#include "tests/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -79,17 +79,9 @@ FinishedTest split(const std::vector<double>& heights, const double strength, co
   return test;
 }
 
-std::string all_of(const std::vector<std::string>& sentences)
-{
-  std::string text;
-  for (const auto& sentence : sentences)
-    text += sentence + "\n";
-  return text;
-}
-
 std::string said_of(const std::vector<FinishedTest>& tests)
 {
-  return all_of(warnings({"rock", SeriesKind::specimens, {}, tests, {}}));
+  return joined(warnings({"rock", SeriesKind::specimens, {}, tests, {}}));
 }
 
 const ComparisonRow* row_of(const std::vector<ComparisonRow>& rows, const std::string& property)
@@ -137,14 +129,12 @@ TEST(SplittingTest, ThatBreaksAtItsPadsIsNotValidAndCountsNowhere)
       EXPECT_EQ(strength->ours->n, 1u);
       EXPECT_EQ(strength->ours->mean, 10.0);
       const std::string said = said_of(tests);
-      EXPECT_NE(
-        said.find("brazilian_seed_2, 5.30 MPa, is not valid as a splitting test: 75 % of its first cracks lie at the "
-                  "pads"),
-        std::string::npos)
-        << said;
-      EXPECT_NE(said.find("Its figures enter no mean, envelope or calibration."), std::string::npos) << said;
-      EXPECT_NE(said.find("ISRM 1978, ASTM D3967"), std::string::npos) << said;
-      EXPECT_EQ(said.find("brazilian_seed_1, "), std::string::npos) << said;
+      EXPECT_TRUE(
+        has(said,
+            "brazilian_seed_2, 5.30 MPa, is not valid as a splitting test: 75 % of its first cracks lie at the "
+            "pads",
+            "Its figures enter no mean, envelope or calibration.", "ISRM 1978, ASTM D3967"));
+      EXPECT_FALSE(has(said, "brazilian_seed_1, "));
 
       const TemporaryFolder folder;
       write_result_folder({}, tests, fit_each_rock(tests), folder.path());
@@ -181,21 +171,18 @@ TEST(BodyWithFlaws, HasHighestNominalStressesAndNoStrengths)
     return names;
   };
   const std::string intact = properties();
-  for (const char* const words : {"tensile strength\n", "uniaxial compressive strength\n",
-                                  "strength at 10 MPa confinement\n", "Brazilian tensile strength\n"})
-    EXPECT_NE(intact.find(words), std::string::npos) << words;
-  EXPECT_EQ(said_of(tests).find("nominal"), std::string::npos);
+  EXPECT_TRUE(has(intact, "tensile strength\n", "uniaxial compressive strength\n", "strength at 10 MPa confinement\n",
+                  "Brazilian tensile strength\n"));
+  EXPECT_FALSE(has(said_of(tests), "nominal"));
 
   for (FinishedTest& test : tests)
     test.appearance.flaws = {{"slot", true, {{0.005, 0.02, 0.0}, {0.015, 0.02, 0.0}}}};
   const std::string flawed = properties();
-  for (const char* const words :
-       {"Direct tension, highest nominal stress\n", "Uniaxial compression, highest nominal stress\n",
-        "Triaxial compression, highest nominal stress at 10 MPa confinement\n",
-        "Brazilian test, highest nominal stress\n", "highest nominal stresses, tension over compression\n"})
-    EXPECT_NE(flawed.find(words), std::string::npos) << words << " in\n" << flawed;
-  EXPECT_EQ(flawed.find("strength"), std::string::npos) << flawed;
-  EXPECT_NE(said_of(tests).find("They are no strengths of the rock, nor is their envelope."), std::string::npos);
+  EXPECT_TRUE(has(flawed, "Direct tension, highest nominal stress\n", "Uniaxial compression, highest nominal stress\n",
+                  "Triaxial compression, highest nominal stress at 10 MPa confinement\n",
+                  "Brazilian test, highest nominal stress\n", "highest nominal stresses, tension over compression\n"));
+  EXPECT_FALSE(has(flawed, "strength"));
+  EXPECT_TRUE(has(said_of(tests), "They are no strengths of the rock, nor is their envelope."));
   const auto envelopes = fit_strength_envelopes(strength_data(tests));
   EXPECT_TRUE(envelopes.data.of_flawed_body);
   EXPECT_TRUE(as_text(envelopes).starts_with("Envelopes of highest nominal stresses:")) << as_text(envelopes);
@@ -208,7 +195,7 @@ TEST(BodyWithFlaws, HasHighestNominalStressesAndNoStrengths)
   EXPECT_EQ(row_of(beside, "Direct tension, highest nominal stress")->ours->mean, 9.0);
   tests = {made(centre_cracked_plate.kind, 4e6)};
   tests[0].appearance.flaws = {{"hole", true, {}}};
-  EXPECT_NE(properties().find("tensile strength, cracked\n"), std::string::npos);
+  EXPECT_TRUE(has(properties(), "tensile strength, cracked\n"));
 }
 
 // A plate holds σ_3 H, which meets the plane over W tan β of the height (docs/theory.md §3.1).
@@ -229,21 +216,18 @@ TEST(PlaneThroughABody, BetweenRigidSidePlatesIsSaidToBeTooStrong)
   };
   // 20 x 40 mm: 2/tan 54.25° = 1.44.
   const std::string steep = with_plane(54.25, 0.0, 0.02, triaxial_compression.kind, 10e6);
-  EXPECT_NE(steep.find("A closed flaw crosses the body from side to side at 54 deg to the platens."), std::string::npos)
-    << steep;
-  EXPECT_NE(steep.find("the deviator is that of 1.44 times the confining pressure, 44 % too high"), std::string::npos)
-    << steep;
-  EXPECT_EQ(steep.find("crosses the body"), steep.rfind("crosses the body")); // once for the rock
+  EXPECT_TRUE(has(steep, "A closed flaw crosses the body from side to side at 54 deg to the platens.",
+                  "the deviator is that of 1.44 times the confining pressure, 44 % too high"));
+  EXPECT_EQ(times(steep, "crosses the body"), 1u); // once for the rock
   // 2/tan 45° = 2; downwards as well.
-  EXPECT_NE(with_plane(-45.0, 0.0, 0.02, triaxial_compression.kind, 10e6).find("that of 2.00 times"),
-            std::string::npos);
+  EXPECT_TRUE(has(with_plane(-45.0, 0.0, 0.02, triaxial_compression.kind, 10e6), "that of 2.00 times"));
   // From corner to corner the formula holds; a plane that ends inside, one that does not slide, and free sides: nothing.
   for (const std::string& said :
        {with_plane(std::atan(2.0) * 180.0 / std::numbers::pi, 0.0, 0.02, triaxial_compression.kind, 10e6),
         with_plane(54.25, 0.0, 0.015, triaxial_compression.kind, 10e6),
         with_plane(5.0, 0.0, 0.02, triaxial_compression.kind, 10e6),
         with_plane(54.25, 0.0, 0.02, uniaxial_compression.kind, 0.0)})
-    EXPECT_EQ(said.find("crosses the body"), std::string::npos) << said;
+    EXPECT_FALSE(has(said, "crosses the body"));
 }
 
 /// A variant of a study with one test of this strength.
@@ -261,7 +245,7 @@ std::string repeats_of(const std::vector<FinishedTest>& tests)
   std::vector<const FinishedTest*> all;
   for (const auto& test : tests)
     all.push_back(&test);
-  return all_of(remarks_on_repeats(all));
+  return joined(remarks_on_repeats(all));
 }
 
 TEST(Study, NamesAnEntryWithoutEffect)
@@ -378,6 +362,13 @@ std::vector<Series> read_with(const std::string& table, const std::string& from,
   return read_result_folder(folder.path(), test_kinds());
 }
 
+/// The only problem of a folder that was read.
+std::string problem_of(const std::vector<Series>& read)
+{
+  EXPECT_EQ(read[0].problems.size(), 1u);
+  return read[0].problems.empty() ? "" : read[0].problems[0];
+}
+
 TEST(ResultFolder, HasTheEventsOfAcousticEmission)
 {
   const std::string first_columns =
@@ -397,7 +388,7 @@ TEST(ResultFolder, HasTheEventsOfAcousticEmission)
 
   const auto spoilt = read_with("emission.csv", "0.0235", "inf");
   EXPECT_TRUE(spoilt[0].tests[0].record.events.empty());
-  EXPECT_NE(spoilt[0].problems[0].find("emission.csv: line 2: y_m is inf"), std::string::npos);
+  EXPECT_TRUE(has(spoilt[0].problems[0], "emission.csv: line 2: y_m is inf"));
 }
 
 TEST(NumbersThatAreNone, InTablesAreNamedAndNeverReachThePage)
@@ -408,29 +399,22 @@ TEST(NumbersThatAreNone, InTablesAreNamedAndNeverReachThePage)
   const std::string curve = "curves/uniaxial_compression_seed_1.csv";
   for (const char* const none : {"nan", "-nan", "inf", "-inf"})
     {
+      SCOPED_TRACE(none);
       const auto of_grains = read_with(grains, "0.0125", none);
-      ASSERT_EQ(of_grains[0].problems.size(), 1u) << none;
-      EXPECT_NE(
-        of_grains[0].problems[0].find(fmt::format("{}: line 3: start_x_m is {}, no finite number; rows with such "
-                                                  "cells are left out",
-                                                  grains, none)),
-        std::string::npos)
-        << of_grains[0].problems[0];
+      EXPECT_TRUE(
+        has(problem_of(of_grains), fmt::format("{}: line 3: start_x_m is {}, no finite number; rows with such "
+                                               "cells are left out",
+                                               grains, none)));
       EXPECT_EQ(of_grains[0].tests[0].appearance.grains_at_end.size(), 1u);
 
       const auto of_cracks = read_with("cracks.csv", "0.0225", none);
-      ASSERT_EQ(of_cracks[0].problems.size(), 1u) << none;
-      EXPECT_NE(of_cracks[0].problems[0].find(fmt::format("cracks.csv: line 2: y_m is {}", none)), std::string::npos);
+      EXPECT_TRUE(has(problem_of(of_cracks), fmt::format("cracks.csv: line 2: y_m is {}", none)));
       EXPECT_TRUE(of_cracks[0].tests[0].record.cracks.empty());
 
       const auto of_curve = read_with(curve, "72000000", none); // 90 % of the strength
-      ASSERT_EQ(of_curve[0].problems.size(), 1u) << none;
-      EXPECT_NE(
-        of_curve[0].problems[0].find(fmt::format("line 11: axial_stress_Pa is {}, no finite number; curves have "
-                                                 "gaps there",
-                                                 none)),
-        std::string::npos)
-        << of_curve[0].problems[0];
+      EXPECT_TRUE(has(problem_of(of_curve), fmt::format("line 11: axial_stress_Pa is {}, no finite number; curves have "
+                                                        "gaps there",
+                                                        none)));
       ASSERT_EQ(of_curve[0].tests[0].record.curve.size(), 15u);
       const auto shown = nlohmann::json::parse(
         specimen_data({{&of_curve[0].tests[0], "rock"}}))["tests"][0]; // throws where a number is nan
@@ -439,12 +423,7 @@ TEST(NumbersThatAreNone, InTablesAreNamedAndNeverReachThePage)
     }
   // A text that is no number, or a number beyond their range, makes the table unreadable; the line says where.
   for (const char* const none : {"", "1e999", "-1e999"})
-    {
-      const auto of_grains = read_with(grains, "0.0125", none);
-      ASSERT_EQ(of_grains[0].problems.size(), 1u) << none;
-      EXPECT_NE(of_grains[0].problems[0].find(grains + ":3: start_x_m: "), std::string::npos)
-        << of_grains[0].problems[0];
-    }
+    EXPECT_TRUE(has(problem_of(read_with(grains, "0.0125", none)), grains + ":3: start_x_m: ")) << none;
 }
 } // namespace
 } // namespace feldspar::tests

@@ -64,9 +64,7 @@ void drive(Grains<dim>& grains, const Components<dim>& start, const int step, co
 }
 
 template <typename>
-class WholeFace : public testing::Test
-{
-};
+using WholeFace = testing::Test;
 using LawsThatRespondAsOne =
   testing::Types<LawAndDimension<FlatJoint, 2>, LawAndDimension<FlatJoint, 3>, LawAndDimension<SofteningFlatJoint, 2>,
                  LawAndDimension<SofteningFlatJoint, 3>>;

@@ -1,4 +1,4 @@
-#include "coupling/rve/work_on_the_way.h"
+#include "coupling/rve/network_history.h"
 
 #include "tests/unit/small_rve.h"
 
@@ -9,10 +9,8 @@ namespace feldspar
 {
 namespace
 {
-template <typename Case>
-class WorkOnTheWay : public testing::Test
-{
-};
+template <typename>
+using WorkOnTheWay = testing::Test;
 TYPED_TEST_SUITE(WorkOnTheWay, Dimensions);
 
 /// A network under pressure whose first joint has no bond left and carries as much shear along t (t_1) as friction lets

@@ -4,6 +4,7 @@
 #include "dem/lab/protocols/protocols.h"
 #include "laboratory/compression.h"
 #include "results/evaluation.h"
+#include "tests/unit/whole_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -55,10 +56,7 @@ TestRecord test(const LaboratoryCase& wanted_test, const std::uint64_t seed, con
   wanted.platen_friction = variant.platen_friction;
   if (variant.to_peak)
     wanted.stop_stress_over_peak = 0.8;
-  LabTest<2> running(wanted_test, specimen, wanted, {});
-  while (running.advance())
-    ;
-  return running.finish(false).record;
+  return tests::outcome_of<2>(wanted_test, specimen, wanted).record;
 }
 
 double peak(const LaboratoryCase& wanted_test, const std::uint64_t seed, Variant variant = {})

@@ -5,6 +5,7 @@
 #include "fem/solid/advance.h"
 #include "fem/solid/platens.h"
 #include "tests/brittle_point.h"
+#include "tests/fem_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -35,9 +36,7 @@ PointEnergies energies_of(const Solid<dim, material_dim>& solid)
 template <int dim, int material_dim>
 void go(Solid<dim, material_dim>& solid, const Load<dim>& load)
 {
-  const auto report = solid.solve(load);
-  ASSERT_TRUE(report.converged) << report.failure;
-  solid.accept();
+  const auto report = solve_and_accept(solid, load);
 }
 
 // Force times travel over two is stress times strain over two times the volume, on whatever steps it is reached.

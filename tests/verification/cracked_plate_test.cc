@@ -10,6 +10,7 @@
 #include "fem/materials/linear_elasticity.h"
 #include "fem/solid/solid.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/unit/whole_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -82,7 +83,7 @@ TEST(ACrackedPlate, HasTheIntensityOfTheSolidBetweenItsGripsWhereItIsValid)
         SCOPED_TRACE(testing::Message() << "length " << length_over_width << " widths, cracked " << n_cracked);
         const double ratio = double(n_cracked) / n_across;
         const auto wanted = cracked(ratio, 0.5 * (1.0 - (length_over_width + 1e-9) * width / height));
-        const auto notch = (*centre_cracked_plate.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch;
+        const auto notch = (*centre_cracked_plate.set_up<2>())(specimen, 0.0, wanted, {}).loading.notch;
         ASSERT_TRUE(notch);
         EXPECT_EQ(notch->is_valid, length_over_width >= 1.2);
         const double over_formula =
@@ -116,10 +117,7 @@ TestOutcome pulled(const LaboratoryProtocol& protocol, const Specimen<2>& specim
   TestParameters wanted = cracked(notch_ratio, 0.1);
   wanted.of<TensionParameters>().strain_rate = 0.05;
   wanted.stop_strain = 3e-5;
-  LabTest<2> test({protocol}, specimen, wanted, {});
-  while (test.advance())
-    ;
-  return test.finish(false);
+  return tests::outcome_of<2>({protocol}, specimen, wanted);
 }
 
 /// Slope of the stress over the strain, through the origin, over the second half of the curve [Pa].

@@ -4,11 +4,12 @@
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/protocols/direct_shear.h"
+#include "dem/lab/protocols/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
 #include "laboratory/compression.h"
 #include "results/evaluation.h"
+#include "tests/unit/whole_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -42,10 +43,7 @@ TestOutcome compress(const Specimen<2>& specimen, const double to_strain)
   TestParameters wanted;
   wanted.of<CompressionParameters>().strain_rate = 0.5;
   wanted.stop_strain = to_strain;
-  LabTest<2> test({uniaxial_compression}, specimen, wanted, {});
-  while (test.advance())
-    ;
-  return test.finish(false);
+  return tests::outcome_of<2>({uniaxial_compression}, specimen, wanted);
 }
 
 /// Stress of the specimen when it cracked [Pa], compression positive.
@@ -187,15 +185,9 @@ double slip_strength(Specimen<dim> specimen, const double angle, const double fr
   SmoothSides sides;
   sides.friction = std::tan(friction_angle);
   put_in_flaws<dim>(specimen, {ClosedFlaw{{middle - half, middle + half}, sides}});
-  LabTest<dim> test({triaxial_compression, pressure}, specimen, wanted, {});
-  while (test.advance())
-    ;
-  const TestOutcome outcome = test.finish(false);
+  const TestOutcome outcome = tests::outcome_of<dim>({triaxial_compression, pressure}, specimen, wanted);
   EXPECT_EQ(outcome.record.failure, "");
-  double highest = 0.0;
-  for (const CurveSample& row : outcome.record.curve)
-    highest = std::max(highest, -row.axial_stress);
-  return highest;
+  return tests::highest_stress(outcome.record);
 }
 
 /// Compression until the whole plane slides.
@@ -334,10 +326,7 @@ TEST(ADensePacking, MayBendItsSidesUnderAMembraneAlone)
     wanted.stop_strain = 0.025;
     wanted.of<CompressionParameters>().sampling_strain = 3e-4;
     wanted.of<ConfinementParameters>().lateral_boundary = boundary;
-    LabTest<2> test({triaxial_compression, 10e6}, specimen, wanted, {});
-    while (test.advance())
-      ;
-    const TestOutcome outcome = test.finish(false);
+    const TestOutcome outcome = tests::outcome_of<2>({triaxial_compression, 10e6}, specimen, wanted);
     EXPECT_LT(outcome.record.curve.back().energies.imbalance(), 1e-3);
     return unevenness(specimen, outcome.appearance.snapshots.back());
   };
@@ -361,10 +350,7 @@ TEST(ASmoothPlane, InSpaceSlidesInTheShearBoxByCoulombsLawAndDilatesByItsAngle)
   TestParameters test_parameters;
   test_parameters.of<ShearParameters>().strain_rate = 0.2;
   test_parameters.stop_strain = 1e-3;
-  LabTest<3> test({direct_shear, 5e6}, specimen, test_parameters, {});
-  while (test.advance())
-    ;
-  const TestResults results = evaluate(test.finish(false).record);
+  const TestResults results = evaluate(tests::outcome_of<3>({direct_shear, 5e6}, specimen, test_parameters).record);
   ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
   EXPECT_NEAR(*results.peak_stress.value, 0.6 * 5e6, 0.01 * 0.6 * 5e6);
   ASSERT_TRUE(results.dilation_angle.value) << results.dilation_angle.reason;

@@ -72,10 +72,8 @@ TEST(GrainMaterial, OneElementIsTheBareRve)
   EXPECT_GT(n_breaks, 0u); // else nothing but elasticity was compared
 }
 
-template <typename Case>
-class GrainMaterials : public testing::Test
-{
-};
+template <typename>
+using GrainMaterials = testing::Test;
 TYPED_TEST_SUITE(GrainMaterials, Dimensions);
 
 // An RVE turned by 30° under a strain responds as the RVE itself under the strain turned back.

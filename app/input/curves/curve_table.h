@@ -6,9 +6,9 @@
 #include "laboratory/curve.h"
 #include "laboratory/kinds.h"
 
-#include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,7 +17,7 @@
 namespace feldspar
 {
 /// Quantities that a curve may have; compression positive, a specimen that widens has negative lateral strains.
-enum class Measured : std::size_t
+enum class Measured
 {
   axial_strain,
   axial_displacement,
@@ -41,37 +41,30 @@ public:
   /// The kind of test that the name of its stress or force says, other than compression.
   std::optional<TestKind> kind() const;
 
-  bool has(const Measured quantity) const { return column(quantity).has_value(); }
-
   /// Returns whether forces or displacements stand for stresses or strains.
   bool needs_size() const
   {
     return !has(Measured::axial_strain) || (!has(Measured::axial_stress) && !has(Measured::deviator));
   }
 
-  bool next() { return table.next(); }
-
-  /// Value in the row; none where the file does not have the quantity.
-  std::optional<double> value(Measured quantity) const;
-
-  InputError refusal(const std::string& what) const;
+  /// Reads the rows; stresses and strains tension positive, a lateral strain that is not there is NaN.
+  std::vector<CurveSample> rows(const std::optional<CylinderSize>& size, bool is_disc);
 
 private:
   /// The column of a quantity in the file, and its unit in SI.
-  struct QuantityColumn
+  struct Column
   {
-    std::size_t column;
+    std::size_t place;
     double unit;
   };
 
-  const std::optional<QuantityColumn>& column(const Measured quantity) const { return columns[std::size_t(quantity)]; }
-  double unit_of(std::size_t of_column, std::string_view unit, Measured quantity) const;
+  bool has(const Measured quantity) const { return columns.contains(quantity); }
+  double value(Measured quantity) const; ///< in the row
+  double unit_of(std::size_t column, std::string_view unit, Measured quantity) const;
+  InputError refusal(const std::string& what) const;
 
   std::string file;
   CsvReader table;
-  std::array<std::optional<QuantityColumn>, 8> columns;
+  std::map<Measured, Column> columns;
 };
-
-/// Reads the rows; stresses and strains tension positive, a lateral strain that is not there is NaN.
-std::vector<CurveSample> rows_of(CurveTable& table, const std::optional<CylinderSize>& size, bool is_disc);
 } // namespace feldspar

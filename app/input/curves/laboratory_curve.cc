@@ -2,6 +2,7 @@
 
 #include "app/input/curves/curve_table.h"
 #include "base/input_error.h"
+#include "base/mapped.h"
 #include "base/quoted.h"
 #include "base/table/quantity.h"
 #include "dem/lab/protocols/protocols.h"
@@ -10,9 +11,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <span>
 
 namespace feldspar
 {
@@ -22,6 +25,10 @@ constexpr double steady = 0.05; // by so much the pressure may wander from its m
 constexpr double noise_share =
   0.01; // of the peak stress: less, and not held, is the noise of a pressure cell in the open
 constexpr double steady_if_small = 0.2; // the same of so small a pressure, whose wandering changes no strength
+
+constexpr std::array<double CurveSample::*, 4> strains_of_row{
+  &CurveSample::axial_strain, &CurveSample::gauge_axial_strain, &CurveSample::gauge_lateral_strain,
+  &CurveSample::gauge_volumetric_strain};
 
 /// Brings stresses and strains of a test in tension or on a disc to their signs, whichever way the file has them: the load is
 /// that of the test, and rock elongates where it is pulled.
@@ -41,10 +48,8 @@ void turn_to_sense(TestRecord& record, const std::string& file)
     {
       row.axial_stress *= of_stress;
       row.lateral_stress = 0.0;
-      for (double CurveSample::*const component :
-           {&CurveSample::axial_strain, &CurveSample::gauge_axial_strain, &CurveSample::gauge_lateral_strain,
-            &CurveSample::gauge_volumetric_strain})
-        row.*component *= of_strain;
+      for (const auto strain : strains_of_row)
+        row.*strain *= of_strain;
     }
 }
 
@@ -55,9 +60,8 @@ std::vector<std::string> hold_pressure(TestRecord& record, const std::string& fi
   auto& curve = record.curve;
   std::vector<std::string> remarks;
   const std::size_t peak = std::size_t(std::ranges::min_element(curve, {}, &CurveSample::axial_stress) - curve.begin());
-  std::vector<double> up_to_peak;
-  for (std::size_t k = 0; k <= peak; ++k)
-    up_to_peak.push_back(-curve[k].lateral_stress);
+  auto up_to_peak =
+    mapped<double>(std::span(curve).first(peak + 1), [](const auto& row) { return -row.lateral_stress; });
   std::ranges::nth_element(up_to_peak, up_to_peak.begin() + std::ptrdiff_t(up_to_peak.size() / 2));
   const double median = up_to_peak[up_to_peak.size() / 2];
   const bool is_small = std::ranges::all_of(curve, [&](const CurveSample& row) {
@@ -133,12 +137,8 @@ std::string count_strains_from_first_load(TestRecord& record, const std::size_t 
   const CurveSample zero = curve[start];
   curve.erase(curve.begin(), curve.begin() + std::ptrdiff_t(start));
   for (CurveSample& row : curve)
-    {
-      row.axial_strain -= zero.axial_strain;
-      row.gauge_axial_strain -= zero.gauge_axial_strain;
-      row.gauge_lateral_strain -= zero.gauge_lateral_strain;
-      row.gauge_volumetric_strain -= zero.gauge_volumetric_strain;
-    }
+    for (const auto strain : strains_of_row)
+      row.*strain -= zero.*strain;
   const std::string offset =
     reading > no_load
       ? fmt::format("; the load of {:.2g} MPa that is read before stays in the stresses", reading * at_peak / 1e6)
@@ -172,7 +172,7 @@ FinishedTest read_curve_of_test(const MeasuredCurve& measured, std::vector<std::
     throw InputError("{}: a cylinder that is shorter than its diameter has no uniform stress; a disc that is "
                      "split needs --curve-test brazilian",
                      file.string());
-  record.curve = rows_of(table, measured.size, is_disc);
+  record.curve = table.rows(measured.size, is_disc);
   if (record.curve.empty())
     throw InputError("{}: there is no row below the header", file.string());
   auto& curve = record.curve;
@@ -240,18 +240,12 @@ FinishedTest read_curve_of_test(const MeasuredCurve& measured, std::vector<std::
 
 CylinderSize parse_cylinder_size(const std::string_view text)
 {
-  std::vector<double> sizes;
-  std::string reason = "found is " + in_quotes(text);
-  try
-    {
-      sizes = parse_quantities(text, length);
-    }
-  catch (const InputError& error)
-    {
-      reason = error.what();
-    }
+  const auto refusal = [](const std::string& why) {
+    return InputError("--curve-size must be diameter and height, as in \"50, 100 mm\": {}", why);
+  };
+  const auto sizes = rephrased([&] { return parse_quantities(text, length); }, refusal);
   if (sizes.size() != 2 || !(sizes[0] > 0.0) || !(sizes[1] > 0.0))
-    throw InputError("--curve-size must be diameter and height, as in \"50, 100 mm\": {}", reason);
+    throw refusal("found is " + in_quotes(text));
   return {sizes[0], sizes[1]};
 }
 

@@ -47,9 +47,10 @@ struct Line
   bool closed = false;
 };
 
-InputError refusal(const Line& line, const std::string& why)
+template <typename... T>
+InputError refusal(const Line& line, fmt::format_string<T...> why, T&&... values)
 {
-  return InputError("{}: the {} {}", line.where, line.entity, why);
+  return InputError("{}: the {} {}", line.where, line.entity, fmt::format(why, std::forward<T>(values)...));
 }
 
 Line line_of(const DxfRecord& entity)
@@ -64,8 +65,7 @@ Line line_of(const DxfRecord& entity)
 void check_flags(const Line& line, const DxfRecord& entity, const long known)
 {
   if (const long flags = entity.integer(70, 0); (flags & ~known) != 0)
-    throw refusal(line,
-                  fmt::format("has unknown flags (group 70 = {}); save the drawing anew by a CAD program", flags));
+    throw refusal(line, "has unknown flags (group 70 = {}); save the drawing anew by a CAD program", flags);
 }
 
 Corner corner_of(const DxfRecord& entity)
@@ -87,9 +87,10 @@ void turn(Line& line, const DxfRecord& entity)
 {
   const Vector<3> direction(entity.number(210, 0.0), entity.number(220, 0.0), entity.number(230, 1.0));
   if (!(std::hypot(direction[0], direction[1]) <= flat * std::abs(direction[2])))
-    throw refusal(line, fmt::format("lies in a tilted plane, whose normal is ({:g}, {:g}, {:g}); traces lie in the "
-                                    "plane of the drawing",
-                                    direction[0], direction[1], direction[2]));
+    throw refusal(line,
+                  "lies in a tilted plane, whose normal is ({:g}, {:g}, {:g}); traces lie in the "
+                  "plane of the drawing",
+                  direction[0], direction[1], direction[2]);
   if (direction[2] < 0.0)
     for (Corner& corner : line.corners)
       corner.place[0] = -corner.place[0];
@@ -105,7 +106,7 @@ Line light_polyline(const DxfRecord& entity)
   std::optional<double> y;
   const auto finish = [&] {
     if (!line.corners.empty() && !y)
-      throw refusal(line, fmt::format("has a vertex {} without a group 20", line.corners.size()));
+      throw refusal(line, "has a vertex {} without a group 20", line.corners.size());
     if (y)
       line.corners.back().place[1] = *y;
     y.reset();
@@ -122,7 +123,7 @@ Line light_polyline(const DxfRecord& entity)
       line.corners.back().bulge = number_of(entity, group);
   finish();
   if (const long n = entity.integer(90, long(line.corners.size())); n != long(line.corners.size()))
-    throw refusal(line, fmt::format("says that it has {} vertices (group 90) and has {}", n, line.corners.size()));
+    throw refusal(line, "says that it has {} vertices (group 90) and has {}", n, line.corners.size());
   turn(line, entity);
   return line;
 }
@@ -139,8 +140,8 @@ public:
     check_flags(line, entity, all);
     const long flags = entity.integer(70, 0);
     if ((flags & (is_mesh | is_polyface)) != 0)
-      throw refusal(line, fmt::format("is a {} mesh (group 70 = {}); traces are lines",
-                                      (flags & is_mesh) != 0 ? "polygon" : "polyface", flags));
+      throw refusal(line, "is a {} mesh (group 70 = {}); traces are lines",
+                    (flags & is_mesh) != 0 ? "polygon" : "polyface", flags);
     line.closed = (flags & is_closed) != 0;
     is_spline = (flags & is_spline_fit) != 0;
   }
@@ -151,23 +152,25 @@ public:
     constexpr long is_control_point = 16, is_of_mesh = 64, is_of_polyface = 128;
     const long flags = vertex.integer(70, 0);
     if ((flags & (is_of_mesh | is_of_polyface)) != 0)
-      throw refusal(line, fmt::format("has a vertex of a mesh (group 70 = {}); traces are lines", flags));
+      throw refusal(line, "has a vertex of a mesh (group 70 = {}); traces are lines", flags);
     if ((flags & is_control_point) == 0)
       line.corners.push_back(corner_of(vertex));
     else if (is_spline)
       ++n_control_points;
     else
-      throw refusal(line, fmt::format("has a control point of a spline (VERTEX, group 70 = {}), and is not marked as a "
-                                      "spline (POLYLINE, flag 4 of group 70)",
-                                      flags));
+      throw refusal(line,
+                    "has a control point of a spline (VERTEX, group 70 = {}), and is not marked as a "
+                    "spline (POLYLINE, flag 4 of group 70)",
+                    flags);
   }
 
   Line finish()
   {
     if (n_control_points > 0 && line.corners.empty())
-      throw refusal(line, fmt::format("is a spline of which there are {} control points and no point of its curve; "
-                                      "explode it into lines",
-                                      n_control_points));
+      throw refusal(line,
+                    "is a spline of which there are {} control points and no point of its curve; "
+                    "explode it into lines",
+                    n_control_points);
     constexpr long is_in_space = 8; // its vertices are given in space, otherwise in its plane
     if ((head.integer(70, 0) & is_in_space) == 0)
       turn(line, head);
@@ -202,7 +205,13 @@ public:
       add_entity(record);
   }
 
-  void finish() { end_polyline(); }
+  void end_polyline()
+  {
+    if (polyline)
+      take(polyline->finish());
+    polyline.reset();
+    is_in_polyline = false;
+  }
 
   long unit = 0; ///< $INSUNITS of the header
   std::vector<Line> lines;
@@ -274,14 +283,6 @@ private:
                        file.string(), entity.line, entity.name == "INSERT" ? "INSERT (a block)" : excerpt(entity.name));
   }
 
-  void end_polyline()
-  {
-    if (polyline)
-      take(polyline->finish());
-    polyline.reset();
-    is_in_polyline = false;
-  }
-
   /// Keeps a line of a drawing. Throws InputError for too many corners, each of which takes time with every joint of a
   /// specimen.
   void take(Line line)
@@ -289,10 +290,9 @@ private:
     constexpr std::size_t most_corners_of_all = 100000;
     n_corners += line.corners.size();
     if (line.corners.size() > most_corners)
-      throw refusal(line, fmt::format("has {} vertices; it must have at most {}", line.corners.size(), most_corners));
+      throw refusal(line, "has {} vertices; it must have at most {}", line.corners.size(), most_corners);
     if (n_corners > most_corners_of_all)
-      throw refusal(
-        line, fmt::format("exceeds the limit: all lines together must have at most {} vertices", most_corners_of_all));
+      throw refusal(line, "exceeds the limit: all lines together must have at most {} vertices", most_corners_of_all);
     lines.push_back(std::move(line));
     check_number_of_traces(lines.size(), file);
   }
@@ -332,8 +332,8 @@ void check(const Line& line)
       if (std::abs(corner.bulge) > flat)
         throw refusal(line, "has arcs (group 42); traces are straight from point to point");
       if (std::abs(next.height - corner.height) > flat * (next.place - corner.place).norm())
-        throw refusal(line, fmt::format("is not level: z is {:g} and then {:g}; traces lie in the plane of the drawing",
-                                        corner.height, next.height));
+        throw refusal(line, "is not level: z is {:g} and then {:g}; traces lie in the plane of the drawing",
+                      corner.height, next.height);
     }
 }
 } // namespace
@@ -342,7 +342,7 @@ Traces read_drawing(const std::filesystem::path& file)
 {
   Drawing drawing(file);
   for_each_record(file, [&](DxfRecord&& record) { drawing.add(std::move(record)); });
-  drawing.finish();
+  drawing.end_polyline();
 
   Traces traces;
   traces.left_out = drawing.left_out();

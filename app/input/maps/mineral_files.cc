@@ -1,6 +1,7 @@
 #include "app/input/maps/mineral_files.h"
 
 #include "base/colour.h"
+#include "base/contains.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
@@ -45,7 +46,7 @@ public:
       return std::nullopt;
     const double value = csv.number(*place);
     if (!(value >= low && value <= high))
-      refuse(fmt::format("{} = {} must lie in {}", csv.name_of(*place), csv.text(*place), allowed));
+      refuse("{} = {} must lie in {}", csv.name_of(*place), csv.text(*place), allowed);
     return value;
   }
 
@@ -53,10 +54,9 @@ public:
   {
     const std::string text(csv.text(know(csv.place(column))));
     if (constexpr std::size_t longest = 40; !is_plain_name(text) || text.size() > longest)
-      refuse(
-        fmt::format("{} is no name of a mineral; it has 1 to {} letters, digits or ._-+ and begins with a letter or "
-                    "a digit",
-                    in_quotes(text), longest));
+      refuse("{} is no name of a mineral; it has 1 to {} letters, digits or ._-+ and begins with a letter or "
+             "a digit",
+             in_quotes(text), longest);
     return text;
   }
 
@@ -70,20 +70,21 @@ public:
       return std::nullopt;
     const auto value = parse_colour(text);
     if (!value)
-      refuse(fmt::format("{} is no colour; write red, green and blue as #rrggbb, e.g. #c0c0c0", in_quotes(text)));
+      refuse("{} is no colour; write red, green and blue as #rrggbb, e.g. #c0c0c0", in_quotes(text));
     return value;
   }
 
-  [[noreturn]] void refuse(const std::string& why) const
+  template <typename... T>
+  [[noreturn]] void refuse(fmt::format_string<T...> why, T&&... values) const
   {
-    throw InputError("{}:{}: {}", name, csv.line_of_row(), why);
+    throw InputError("{}:{}: {}", name, csv.line_of_row(), fmt::format(why, std::forward<T>(values)...));
   }
 
   /// To be called after the first row has been read: a column that nothing asked for is a mistake.
   void check_columns(const std::string_view columns) const
   {
     for (std::size_t c = 0; c < csv.header().size(); ++c)
-      if (!csv.name_of(c).empty() && std::ranges::find(known, c) == known.end())
+      if (!csv.name_of(c).empty() && !contains(known, c))
         throw InputError("{}:{}: {} is no column of this table; they are {}", name, csv.line_of_header(),
                          in_quotes(csv.name_of(c)), columns);
   }
@@ -91,7 +92,7 @@ public:
   void check_number(const std::size_t n, const std::size_t most) const
   {
     if (n > most)
-      refuse(fmt::format("must be at most {} rows", most));
+      refuse("must be at most {} rows", most);
   }
 
 private:
@@ -193,8 +194,8 @@ std::vector<Mineral> read_minerals(const std::filesystem::path& file)
     {
       Mineral one;
       one.name = table.mineral("mineral");
-      if (std::ranges::any_of(minerals, [&](const Mineral& other) { return other.name == one.name; }))
-        table.refuse(fmt::format("{} is in the table twice", one.name));
+      if (contains(minerals, one.name, &Mineral::name))
+        table.refuse("{} is in the table twice", one.name);
       one.share = table.number("share", 0.0, 1.0, "0 to 100 %");
       constexpr double quarter_turn = 0.5 * std::numbers::pi;
       one.size = table.number("size_m", 0.0, 1e3, "0 to 1000 m").value_or(0.0);
@@ -228,7 +229,7 @@ std::vector<MineralBoundary> read_mineral_boundaries(const std::filesystem::path
       if (std::ranges::any_of(boundaries, [&](const MineralBoundary& other) {
             return (other.one == one.one && other.two == one.two) || (other.one == one.two && other.two == one.one);
           }))
-        table.refuse(fmt::format("the boundary of {} and {} is in the table twice", one.one, one.two));
+        table.refuse("the boundary of {} and {} is in the table twice", one.one, one.two);
       if (boundaries.empty())
         table.check_columns(
           "mineral_1, mineral_2, stiffness_ratio, tensile_strength_ratio, cohesion_ratio, friction_ratio");
@@ -242,8 +243,7 @@ std::shared_ptr<const MineralMap> read_mineral_map(const std::filesystem::path& 
 {
   const std::string ending = in_small_letters(file.extension().string());
   if (ending != ".png" && ending != ".csv" && ending != ".txt")
-    throw InputError(
-      fmt::format("{}: is neither a picture in PNG (.png) nor a table of points (.csv, .txt)", file.string()));
+    throw InputError("{}: is neither a picture in PNG (.png) nor a table of points (.csv, .txt)", file.string());
   return std::make_shared<const MineralMap>(ending == ".png" ? read_picture(file) : read_points(file));
 }
 } // namespace feldspar

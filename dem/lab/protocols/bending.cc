@@ -87,8 +87,9 @@ SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParame
                     const DynamicsParameters& dynamics)
 {
   const auto& own = wanted.of<BendingParameters>();
+  const double a = wanted.of<NotchParameters>().ratio;
   const double middle = 0.5 * body.size[0];
-  cut_notch(body, {middle, 0.0}, {middle, bending.notch_depth}, wanted);
+  cut_notch(body, {middle, 0.0}, {middle, a * bending.depth}, wanted);
 
   const std::vector<bool> is_loose = loose_grains(body);
   Wall upper = roller(body, is_loose, middle, -1.0);
@@ -103,7 +104,11 @@ SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParame
 
   test.loading.strain_rate = -own.strain_rate;
   test.loading.sampling_strain = own.sampling_strain;
-  test.loading.notch = bending.notch;
+  test.loading.notch = {.intensity_over_stress = bending.intensity_over_stress,
+                        .work_over_stress = bending.depth / bending.stress_over_force,
+                        .ligament_area = bending.breadth * bending.depth * (1.0 - a),
+                        .ligament_length = bending.depth * (1.0 - a),
+                        .is_valid = bending.is_valid};
   test.loading.end_stress = [=, factor = bending.stress_over_force](const Dynamics<dim>& state) {
     return EndStress{-factor * (state.wall_force(left) + state.wall_force(right)), -factor * state.wall_force(top)};
   };

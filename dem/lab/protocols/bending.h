@@ -20,18 +20,19 @@ std::vector<Entry<TestParameters>> bending_entries();
 /// A body that stands on two rollers and is pressed down by a third, with a saw cut of no width from below.
 struct Bending
 {
-  double depth;             ///< from the plane of the lower rollers to the upper one [m]
-  double span;              ///< between the lower rollers [m]
-  double notch_depth;       ///< of the cut [m]
-  double stress_over_force; ///< measured stress over the load [1/m²]
-  NotchGeometry notch;
+  double depth;                 ///< from the plane of the lower rollers to the upper one [m]
+  double span;                  ///< between the lower rollers [m]
+  double breadth;               ///< [m]
+  double stress_over_force;     ///< measured stress over the load [1/m²]
+  double intensity_over_stress; ///< as of NotchGeometry [√m]
+  bool is_valid = true;         ///< the formula holds for the depth of the cut
 };
 
-/// Stands the body, whose lower side is at 0 and whose middle is that of its box, on the rollers: smooth plates, one mean grain
-/// diameter wide to either side in the plane and one mean radius in space, against the grain that protrudes furthest of those
-/// that are not loose. They are bedded: every grain within a mean radius of them carries load as it lies, or within as
-/// much more as it takes to have one on either side of the middle. They pivot, so that their forces act at their
-/// middles. Throws InputError where there is no such grain.
+/// Saws the notch, and stands the body, whose lower side is at 0 and whose middle is that of its box, on the rollers: smooth
+/// plates, one mean grain diameter wide to either side in the plane and one mean radius in space, against the grain that
+/// protrudes furthest of those that are not loose. They are bedded: every grain within a mean radius of them carries load as
+/// it lies, or within as much more as it takes to have one on either side of the middle. They pivot, so that their forces
+/// act at their middles. Throws InputError where there is no such grain.
 template <int dim>
 SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParameters& wanted,
                     const DynamicsParameters& dynamics);

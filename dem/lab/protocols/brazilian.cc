@@ -1,8 +1,7 @@
-#include "dem/lab/protocols/brazilian.h"
-
 #include "base/parameter_id.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
+#include "dem/lab/protocols/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_part.h"
@@ -172,9 +171,7 @@ constinit const LaboratoryProtocol brazilian = complete({
   .own_entries = {brazilian_entries},
   .forecast = {PeakForecast::With::tension, 4.0},
   .takes_cylinders = true,
-  .set_up_2d = set_up_brazilian<2>,
-  .set_up_3d = set_up_brazilian<3>,
-  .body_size_2d = disc_size<2>,
-  .body_size_3d = disc_size<3>,
+  .set_ups = {set_up_brazilian<2>, set_up_brazilian<3>},
+  .body_sizes = {disc_size<2>, disc_size<3>},
 });
 } // namespace feldspar

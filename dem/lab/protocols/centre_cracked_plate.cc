@@ -24,7 +24,7 @@ double shape_factor_of_plate(const double ratio)
 }
 
 template <int dim>
-SetUpTest<dim> set_up_centre_cracked_plate(Specimen<dim> specimen, double /*confining_pressure*/,
+SetUpTest<dim> set_up_centre_cracked_plate(Specimen<dim> specimen, const double confining_pressure,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
@@ -38,7 +38,7 @@ SetUpTest<dim> set_up_centre_cracked_plate(Specimen<dim> specimen, double /*conf
 
   const double area = plate.volume() / plate.size[axis];
   const double length = free_length(plate, wanted);
-  SetUpTest<dim> test = pull(std::move(plate), wanted, dynamics);
+  SetUpTest<dim> test = pull(std::move(plate), confining_pressure, wanted, dynamics);
   test.loading.notch = {.intensity_over_stress = shape_factor_of_plate(ratio) * std::sqrt(std::numbers::pi * a),
                         .work_over_stress = area * length,
                         .ligament_area = area * (1.0 - ratio),
@@ -58,7 +58,6 @@ constinit const LaboratoryProtocol centre_cracked_plate = complete({
   .strain_rate = rate_of<TensionParameters>,
   .own_entries = {tension_entries, notch_entries},
   .forecast = {PeakForecast::With::tension, 0.6},
-  .set_up_2d = set_up_centre_cracked_plate<2>,
-  .set_up_3d = set_up_centre_cracked_plate<3>,
+  .set_ups = {set_up_centre_cracked_plate<2>, set_up_centre_cracked_plate<3>},
 });
 } // namespace feldspar

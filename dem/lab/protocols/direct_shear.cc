@@ -1,6 +1,6 @@
-#include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
+#include "dem/lab/protocols/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "laboratory/entries.h"
@@ -119,7 +119,6 @@ constinit const LaboratoryProtocol direct_shear = complete({
   .strain_rate = rate_of<ShearParameters>,
   .own_entries = {shear_entries, seating_entries},
   .forecast = {PeakForecast::With::compression, 1.1}, // granite in a box of 40 x 20 mm, examples/direct-shear
-  .set_up_2d = set_up_direct_shear<2>,
-  .set_up_3d = set_up_direct_shear<3>,
+  .set_ups = {set_up_direct_shear<2>, set_up_direct_shear<3>},
 });
 } // namespace feldspar

@@ -1,20 +1,8 @@
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 
-#include <utility>
-
 namespace feldspar
 {
-namespace
-{
-template <int dim>
-SetUpTest<dim> set_up_direct_tension(Specimen<dim> specimen, double /*confining_pressure*/,
-                                     const TestParameters& wanted, const DynamicsParameters& dynamics)
-{
-  return pull(std::move(specimen), wanted, dynamics);
-}
-} // namespace
-
 constinit const LaboratoryProtocol direct_tension = complete({
   .kind = {.name = "direct_tension",
            .title = "Direct tension",
@@ -29,7 +17,6 @@ constinit const LaboratoryProtocol direct_tension = complete({
   .forecast = {PeakForecast::With::tension},
   .takes_cylinders = true,
   .takes_clumps = true,
-  .set_up_2d = set_up_direct_tension<2>,
-  .set_up_3d = set_up_direct_tension<3>,
+  .set_ups = {pull<2>, pull<3>},
 });
 } // namespace feldspar

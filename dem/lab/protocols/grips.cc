@@ -25,7 +25,8 @@ std::vector<Entry<TestParameters>> tension_entries()
 }
 
 template <int dim>
-SetUpTest<dim> pull(Specimen<dim> body, const TestParameters& wanted, const DynamicsParameters& dynamics)
+SetUpTest<dim> pull(Specimen<dim> body, double /*confining_pressure*/, const TestParameters& wanted,
+                    const DynamicsParameters& dynamics)
 {
   const auto& tension = wanted.of<TensionParameters>();
   constexpr int axis = dim - 1;
@@ -67,6 +68,6 @@ SetUpTest<dim> pull(Specimen<dim> body, const TestParameters& wanted, const Dyna
   return test;
 }
 
-template SetUpTest<2> pull<2>(Specimen<2>, const TestParameters&, const DynamicsParameters&);
-template SetUpTest<3> pull<3>(Specimen<3>, const TestParameters&, const DynamicsParameters&);
+template decltype(pull<2>) pull<2>;
+template decltype(pull<3>) pull<3>;
 } // namespace feldspar

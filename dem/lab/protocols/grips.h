@@ -26,8 +26,9 @@ double free_length(const Specimen<dim>& specimen, const TestParameters& wanted)
   return height - 2.0 * (wanted.of<TensionParameters>().grip_ratio * height);
 }
 
-/// Pulls a body along the last axis: its ends are held as rigid grips, each of which moves outwards at half the strain rate
-/// of tension times the free length; docs/theory.md §4.2. Throws InputError where no grain lies in a grip.
+/// Set-up that pulls a body along the last axis: its ends are held as rigid grips, each of which moves outwards at half the
+/// strain rate of tension times the free length; docs/theory.md §4.2. Throws InputError where no grain lies in a grip.
 template <int dim>
-SetUpTest<dim> pull(Specimen<dim> body, const TestParameters& wanted, const DynamicsParameters& dynamics);
+SetUpTest<dim> pull(Specimen<dim> body, double confining_pressure, const TestParameters& wanted,
+                    const DynamicsParameters& dynamics);
 } // namespace feldspar

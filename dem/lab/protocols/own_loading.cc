@@ -9,7 +9,6 @@
 #include "laboratory/loading_stages.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace feldspar
@@ -41,18 +40,10 @@ SetUpTest<dim> set_up_own_loading(Specimen<dim> specimen, double /*confining_pre
   else
     around.end_area = [area](const Dynamics<dim>&) { return area; };
 
+  const Press<dim> end_press{{ends.low, ends.high}, around.end_area, pressure_at_start};
   const auto hold_sides = [=](Dynamics<dim>& state, const double pressure) {
     for (const Press<dim>& side : around.sides)
-      {
-        const double area = side.area(state);
-        for (const std::size_t wall : side.walls)
-          hold_pressure(state, wall, area, pressure, largest_servo_speed);
-      }
-  };
-  const auto hold_ends = [=](Dynamics<dim>& state, const double stress) {
-    const double area = around.end_area(state);
-    for (const std::size_t wall : {ends.low, ends.high})
-      hold_pressure(state, wall, area, stress, largest_servo_speed);
+      hold(state, side, pressure, largest_servo_speed);
   };
 
   test.loading.strain_rate = -own.strain_rate;
@@ -60,20 +51,14 @@ SetUpTest<dim> set_up_own_loading(Specimen<dim> specimen, double /*confining_pre
     if (pressure_at_start > 0.0)
       {
         const auto largest_deviation = [&] {
-          double largest = 0.0;
-          const auto compare = [&](const std::size_t wall, const double area) {
-            largest = std::max(largest, std::abs(state.wall_force(wall) / area / pressure_at_start - 1.0));
-          };
+          double largest = deviation(state, end_press, pressure_at_start);
           for (const Press<dim>& side : around.sides)
-            for (const std::size_t wall : side.walls)
-              compare(wall, side.area(state));
-          for (const std::size_t wall : {ends.low, ends.high})
-            compare(wall, around.end_area(state));
+            largest = std::max(largest, deviation(state, side, pressure_at_start));
           return largest;
         };
         const auto hold_all = [&](const double share) {
           hold_sides(state, share * pressure_at_start);
-          hold_ends(state, share * pressure_at_start);
+          hold(state, end_press, share * pressure_at_start, largest_servo_speed);
         };
         raise_pressures<dim>(state,
                              {pressure_at_start, wanted.seating_transits * height / wave_speed(state.specimen()),
@@ -90,7 +75,7 @@ SetUpTest<dim> set_up_own_loading(Specimen<dim> specimen, double /*confining_pre
   test.loading.drive_stage = [=](Dynamics<dim>& state, const StageDemand& demand) {
     hold_sides(state, demand.confining_pressure);
     if (demand.held_stress)
-      hold_ends(state, *demand.held_stress);
+      hold(state, end_press, *demand.held_stress, largest_servo_speed);
     else if (demand.missing_widening)
       {
         const EndStress stress = stress_of(state, ends, around.end_area(state));
@@ -122,7 +107,6 @@ constinit const LaboratoryProtocol own_loading = complete({
   .strain_rate = rate_of<CompressionParameters>,
   .own_entries = {compression_entries, loading_table_entries, platen_entries, seating_entries},
   .takes_cylinders = true,
-  .set_up_2d = set_up_own_loading<2>,
-  .set_up_3d = set_up_own_loading<3>,
+  .set_ups = {set_up_own_loading<2>, set_up_own_loading<3>},
 });
 } // namespace feldspar

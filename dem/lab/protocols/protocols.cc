@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 
 namespace feldspar
@@ -43,11 +44,9 @@ std::vector<Entry<TestParameters>> test_entries()
       if (entries && !contains(taken, entries))
         {
           taken.push_back(entries);
-          for (const auto& one : entries())
-            all.push_back(one);
+          std::ranges::copy(entries(), std::back_inserter(all));
         }
-  for (const auto& one : common_test_entries())
-    all.push_back(one);
+  std::ranges::copy(common_test_entries(), std::back_inserter(all));
   return all;
 }
 
@@ -63,9 +62,7 @@ std::vector<TestKind> kinds_that_take(const std::string_view entry)
 
 const std::vector<TestKind>& test_kinds()
 {
-  static const std::vector<TestKind> kinds = [] {
-    return mapped<TestKind>(laboratory_protocols(), [&](const LaboratoryProtocol* protocol) { return protocol->kind; });
-  }();
+  static const auto kinds = mapped<TestKind>(laboratory_protocols(), &LaboratoryProtocol::kind);
   return kinds;
 }
 
@@ -98,8 +95,8 @@ std::string objection_to_clumps(const TestKind& kind)
 std::string objection_to_grains(const TestKind& kind, const Body body)
 {
   const auto is_made = [=](const LaboratoryProtocol& one) {
-    return body == Body::plane_box ? one.set_up_2d.has_value()
-                                   : one.set_up_3d.has_value() && (body != Body::cylinder || one.takes_cylinders);
+    return body == Body::plane_box ? one.set_up<2>().has_value()
+                                   : one.set_up<3>().has_value() && (body != Body::cylinder || one.takes_cylinders);
   };
   if (is_made(protocol_of(kind)))
     return "";

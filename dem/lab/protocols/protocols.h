@@ -50,6 +50,10 @@ const std::vector<TestKind>& test_kinds();
 /// The protocol of a kind. Throws std::logic_error for a kind that is not in the list.
 const LaboratoryProtocol& protocol_of(const TestKind& kind);
 
+/// Throws InputError where a body of this width and height [m] would not be pressed on the plate of the tilt test by its
+/// weight, or would slide or topple at once.
+void check_tilt(const TestParameters& wanted, double width, double height);
+
 /// Why this test cannot be made on finite elements, and which can, in the words of an error of the input; empty if it
 /// can.
 std::string objection_to_finite_elements(const TestKind& kind);

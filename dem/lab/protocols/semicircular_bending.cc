@@ -1,6 +1,6 @@
 #include "dem/lab/protocols/bending.h"
-#include "dem/lab/protocols/brazilian.h"
 #include "dem/lab/protocols/notch.h"
+#include "dem/lab/protocols/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_part.h"
 
@@ -70,16 +70,12 @@ SetUpTest<dim> set_up_semicircular_bending(Specimen<dim> specimen, double /*conf
   half_disc.shape = BodyShape::box;
 
   const double a = wanted.of<NotchParameters>().ratio;
-  const double stress_over_force = 1.0 / (2.0 * radius * breadth);
   const Bending bending{.depth = radius,
                         .span = 2.0 * radius * span_over_diameter,
-                        .notch_depth = a * radius,
-                        .stress_over_force = stress_over_force,
-                        .notch = {.intensity_over_stress = shape_factor(a) * std::sqrt(std::numbers::pi * a * radius),
-                                  .work_over_stress = radius / stress_over_force,
-                                  .ligament_area = breadth * radius * (1.0 - a),
-                                  .ligament_length = radius * (1.0 - a),
-                                  .is_valid = a >= 0.4 && a <= 0.6}};
+                        .breadth = breadth,
+                        .stress_over_force = 1.0 / (2.0 * radius * breadth),
+                        .intensity_over_stress = shape_factor(a) * std::sqrt(std::numbers::pi * a * radius),
+                        .is_valid = a >= 0.4 && a <= 0.6};
   return bend(std::move(half_disc), bending, wanted, dynamics);
 }
 } // namespace
@@ -96,9 +92,7 @@ constinit const LaboratoryProtocol semicircular_bending = complete({
   .own_entries = {bending_entries, notch_entries},
   .forecast = {PeakForecast::With::tension, 1.3},
   .takes_cylinders = true,
-  .set_up_2d = set_up_semicircular_bending<2>,
-  .set_up_3d = set_up_semicircular_bending<3>,
-  .body_size_2d = half_disc_size<2>,
-  .body_size_3d = half_disc_size<3>,
+  .set_ups = {set_up_semicircular_bending<2>, set_up_semicircular_bending<3>},
+  .body_sizes = {half_disc_size<2>, half_disc_size<3>},
 });
 } // namespace feldspar

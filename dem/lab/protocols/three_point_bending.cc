@@ -53,16 +53,11 @@ SetUpTest<dim> set_up_three_point_bending(Specimen<dim> specimen, double /*confi
   const double span = span_over_depth * depth;
   const double a = wanted.of<NotchParameters>().ratio;
   // σ = 3 P S / (2 B W²), at the lower side of a beam without a notch.
-  const double stress_over_force = 3.0 * span / (2.0 * breadth * depth * depth);
   const Bending bending{.depth = depth,
                         .span = span,
-                        .notch_depth = a * depth,
-                        .stress_over_force = stress_over_force,
-                        .notch = {.intensity_over_stress = 2.0 / 3.0 * std::sqrt(depth) * intensity(a),
-                                  .work_over_stress = depth / stress_over_force,
-                                  .ligament_area = breadth * depth * (1.0 - a),
-                                  .ligament_length = depth * (1.0 - a),
-                                  .is_valid = true}};
+                        .breadth = breadth,
+                        .stress_over_force = 3.0 * span / (2.0 * breadth * depth * depth),
+                        .intensity_over_stress = 2.0 / 3.0 * std::sqrt(depth) * intensity(a)};
   return bend(std::move(beam), bending, wanted, dynamics);
 }
 } // namespace
@@ -78,9 +73,7 @@ constinit const LaboratoryProtocol three_point_bending = complete({
   .strain_rate = rate_of<BendingParameters>,
   .own_entries = {bending_entries, notch_entries},
   .forecast = {PeakForecast::With::tension, 4.0},
-  .set_up_2d = set_up_three_point_bending<2>,
-  .set_up_3d = set_up_three_point_bending<3>,
-  .body_size_2d = beam_size<2>,
-  .body_size_3d = beam_size<3>,
+  .set_ups = {set_up_three_point_bending<2>, set_up_three_point_bending<3>},
+  .body_sizes = {beam_size<2>, beam_size<3>},
 });
 } // namespace feldspar

@@ -1,8 +1,6 @@
-#include "dem/lab/protocols/tilt.h"
-
 #include "base/parameter_id.h"
-#include "dem/lab/gravity.h"
 #include "dem/lab/laboratory_run.h"
+#include "dem/lab/protocols/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/seating.h"
 #include "dem/lab/servo.h"
@@ -115,7 +113,6 @@ constinit const LaboratoryProtocol tilt = complete({
   .own_entries = {tilt_entries, platen_entries, seating_entries},
   .takes_cylinders = true,
   .takes_clumps = true,
-  .set_up_2d = set_up_tilt<2>,
-  .set_up_3d = set_up_tilt<3>,
+  .set_ups = {set_up_tilt<2>, set_up_tilt<3>},
 });
 } // namespace feldspar

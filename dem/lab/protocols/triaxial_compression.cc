@@ -7,7 +7,6 @@
 #include "laboratory/entries.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -31,10 +30,8 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
   const auto held_area = [=](const Dynamics<dim>& state) { return membrane ? area_at_rest : around.end_area(state); };
   const Press<dim> end_press{{ends.low, ends.high}, held_area, confining_pressure};
 
-  const auto hold = [=](Dynamics<dim>& state, const Press<dim>& press, const double share) {
-    const double area = press.area(state);
-    for (const std::size_t wall : press.walls)
-      hold_pressure(state, wall, area, share * press.pressure, largest_servo_speed);
+  const auto hold_share = [=](Dynamics<dim>& state, const Press<dim>& press, const double share) {
+    hold(state, press, share * press.pressure, largest_servo_speed);
   };
   const auto membrane_is_due = [=](const Dynamics<dim>& state) {
     constexpr std::uint64_t steps_between_fits = 200; // the grains move by thousandths of a radius meanwhile
@@ -44,20 +41,15 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
   test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
     const auto hold_all = [&](const double share) {
       for (const auto& side : around.sides)
-        hold(state, side, share);
+        hold_share(state, side, share);
       if (membrane_is_due(state) || (membrane && share < 1.0 && state.n_steps() % 20 == 0))
         around.press_membrane(state, share);
-      hold(state, end_press, share);
+      hold_share(state, end_press, share);
     };
     const auto largest_deviation = [&] {
-      double largest = 0.0;
-      const auto compare = [&](const Press<dim>& press) {
-        for (const std::size_t wall : press.walls)
-          largest = std::max(largest, std::abs(state.wall_force(wall) / press.area(state) / press.pressure - 1.0));
-      };
+      double largest = deviation(state, end_press, end_press.pressure);
       for (const auto& side : around.sides)
-        compare(side);
-      compare(end_press);
+        largest = std::max(largest, deviation(state, side, side.pressure));
       return largest;
     };
     raise_pressures<dim>(state,
@@ -70,7 +62,7 @@ SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double 
   };
   test.loading.drive = [=](Dynamics<dim>& state, const SinceStart& since) {
     for (const auto& side : around.sides)
-      hold(state, side, 1.0);
+      hold_share(state, side, 1.0);
     if (membrane_is_due(state))
       around.press_membrane(state, 1.0);
     if (!machine.is_rigid())
@@ -102,7 +94,6 @@ constinit const LaboratoryProtocol triaxial_compression = complete({
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
   .takes_clumps = true,
-  .set_up_2d = set_up_triaxial_compression<2>,
-  .set_up_3d = set_up_triaxial_compression<3>,
+  .set_ups = {set_up_triaxial_compression<2>, set_up_triaxial_compression<3>},
 });
 } // namespace feldspar

@@ -43,7 +43,6 @@ constinit const LaboratoryProtocol uniaxial_compression = complete({
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
   .takes_clumps = true,
-  .set_up_2d = set_up_uniaxial_compression<2>,
-  .set_up_3d = set_up_uniaxial_compression<3>,
+  .set_ups = {set_up_uniaxial_compression<2>, set_up_uniaxial_compression<3>},
 });
 } // namespace feldspar

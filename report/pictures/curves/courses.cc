@@ -54,6 +54,7 @@ bool is_nowhere(const SeriesGroup& of, const Value& value)
     return std::ranges::all_of(test->record.curve, [&](const CurveSample& row) { return value(row) == 0.0; });
   });
 }
+
 /// Returns whether a single series has cracks; their kinds then have colours of their own.
 bool is_one(const SameTests& same)
 {

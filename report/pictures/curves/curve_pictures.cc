@@ -1,7 +1,7 @@
 #include "report/pictures/curves/curve_pictures.h"
 
 #include "base/contains.h"
-#include "report/chart/gnuplot_writer.h"
+#include "base/mapped.h"
 #include "report/pictures/figures.h"
 
 #include <algorithm>
@@ -31,11 +31,12 @@ std::string means_of_several(const SameTests& same, const bool shows_single_test
   if (!any_has_several(same))
     return "";
   const bool all_have = std::ranges::all_of(same, [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
-  if (all_have)
-    return std::string(". Lines: means; bands: ± standard deviation") +
-           (shows_single_tests ? "; thin lines: single tests" : "");
-  return std::string(". Of a series with several tests the line is the mean and the band ± standard deviation") +
-         (shows_single_tests ? "; thin lines are single tests" : "");
+  return std::string(all_have
+                       ? ". Lines: means; bands: ± standard deviation"
+                       : ". Of a series with several tests the line is the mean and the band ± standard deviation") +
+         (!shows_single_tests ? ""
+          : all_have          ? "; thin lines: single tests"
+                              : "; thin lines are single tests");
 }
 
 std::string abscissa_name(const SameTests& same)
@@ -70,50 +71,35 @@ void add_mean(Chart& chart, ChartSeries mean, const std::vector<std::array<doubl
 std::vector<Picture> curve_picture(Chart chart, const SameTests& same, const std::string& ending,
                                    const std::string& caption, const std::string& alternative)
 {
-  constexpr int width = 580; // [px]
-  if (chart.empty())
-    return {};
   const auto layer = [](const ChartSeries& series) {
     return series.kind == ChartSeries::Kind::area ? 0 : !series.goes_with.empty() ? 1 : series.to_the_right ? 3 : 2;
   };
-  std::ranges::stable_sort(chart.series,
-                           [&](const ChartSeries& a, const ChartSeries& b) { return layer(a) < layer(b); });
-  return {{.name = same.front().group.name() + ending,
-           .caption = caption,
-           .alternative = alternative,
-           .width = width,
-           .height = 450 + further_height(chart, width),
-           .panels = {std::move(chart)}}};
+  std::ranges::stable_sort(chart.series, {}, layer);
+  return picture_of(std::move(chart), 580, 450, same.front().group.name() + ending, caption, alternative);
 }
 
 std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all)
 {
   // Tests of the same kind and pressure of every series.
-  std::vector<std::pair<TestGroup, SameTests>> programme;
-  std::vector<TestGroup> every;
+  std::vector<SameTests> programme;
   for (std::size_t n = 0; n < all.size(); ++n)
-    for (const auto& group : groups_of(all[n]))
+    for (const auto& one : groups_of(all[n]))
       {
-        auto found =
-          std::ranges::find_if(programme, [&](const auto& entry) { return same_conditions(entry.first, group); });
+        auto found = std::ranges::find_if(
+          programme, [&](const SameTests& same) { return same_conditions(same.front().group, one); });
         if (found == programme.end())
-          found = programme.insert(programme.end(), {group, {}});
-        found->second.push_back({&all[n], n, group});
+          found = programme.insert(programme.end(), SameTests());
+        found->push_back({&all[n], n, one});
       }
-  std::ranges::stable_sort(programme, [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
-  for (const auto& [group, same] : programme)
-    every.push_back(group);
-  const auto on_page = shown(every);
+  std::ranges::stable_sort(
+    programme, [](const SameTests& a, const SameTests& b) { return comes_before(a.front().group, b.front().group); });
+  const auto on_page = shown(mapped<TestGroup>(programme, [](const SameTests& same) { return same.front().group; }));
 
   std::vector<GroupPictures> result;
-  for (const auto& [group, same] : programme)
-    {
-      const std::string name = group.name();
-      const bool is_shown = contains(on_page, name, &TestGroup::name);
-      GroupPictures pictures{group.title(), is_shown, pictures_of(curve_figures, same)};
-      if (!pictures.pictures.empty())
-        result.push_back(std::move(pictures));
-    }
+  for (const SameTests& same : programme)
+    if (Pictures pictures = pictures_of(curve_figures, same); !pictures.empty())
+      result.push_back({same.front().group.title(), contains(on_page, same.front().group.name(), &TestGroup::name),
+                        std::move(pictures)});
   return result;
 }
 } // namespace feldspar

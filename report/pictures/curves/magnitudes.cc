@@ -1,5 +1,4 @@
 #include "base/append.h"
-#include "report/chart/gnuplot_writer.h"
 #include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
@@ -82,7 +81,6 @@ Pictures magnitude_picture(const SameTests& same)
 
 Pictures catalogue_picture(const std::vector<Series>& all, const std::vector<EmissionCatalogue>& catalogues)
 {
-  constexpr int width = 580; // [px]
   Chart chart{.x = {.label = "magnitude above completeness"},
               .y = {.label = "events of this magnitude or more", .logarithmic = true},
               .key_columns = 2};
@@ -106,11 +104,7 @@ Pictures catalogue_picture(const std::vector<Series>& all, const std::vector<Emi
     for (const TestGroup& group : shown(groups_of(series)))
       add(magnitudes_to_peak(group), 0.0, all.size() > 1 ? group.title() + ", " + series.label : group.title(),
           colour(series, n_lines++));
-  return {{.name = "emission_catalogues",
-           .caption = caption,
-           .alternative = "Number of events of acoustic emission over magnitude, of the laboratory and of the model.",
-           .width = width,
-           .height = 450 + further_height(chart, width),
-           .panels = {std::move(chart)}}};
+  return picture_of(std::move(chart), 580, 450, "emission_catalogues", caption,
+                    "Number of events of acoustic emission over magnitude, of the laboratory and of the model.");
 }
 } // namespace feldspar

@@ -1,4 +1,3 @@
-#include "report/chart/gnuplot_writer.h"
 #include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
@@ -8,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 namespace feldspar
@@ -18,14 +16,6 @@ namespace
 using namespace plot;
 
 constexpr std::size_t most_rows = 250; ///< of a single test in a picture
-
-std::string with_capital(const std::string_view words)
-{
-  std::string text(words);
-  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
-    text.front() = char(text.front() - 'a' + 'A');
-  return text;
-}
 
 /// Mean strain at the peak: beyond it the gauge measures broken pieces.
 double strain_at_peak(const TestGroup& group)
@@ -63,8 +53,7 @@ void add_stress_curve(Chart& chart, const SeriesGroup& of, const Quantity& strai
   if (each_alone)
     return;
 
-  const Band stress = band(
-    group, [&](const CurveSample& row) { return row.*group.kind.channel.value; }, true);
+  const Band stress = band(group, group.kind.channel.value, true);
   const Band strains = band(group, strain, true);
   ChartSeries mean{.label = label, .colour = its_colour, .dashes = dashes};
   std::vector<std::array<double, 2>> deviations;
@@ -81,17 +70,14 @@ void add_stress_curve(Chart& chart, const SeriesGroup& of, const Quantity& strai
 /// Ends the axis of strain where the axial strain ends: broken pieces move sideways many times as far.
 void end_with_axial_strain(Chart& chart)
 {
-  double axial = 0.0, least = 0.0, highest = 0.0;
+  Limits<2> limits;
+  limits.include({0.0, 0.0});
   for (const ChartSeries& series : chart.series)
-    for (const ChartPoint& point : series.points)
-      {
-        if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
-          continue;
-        least = std::min(least, point[0]);
-        axial = std::max(axial, point[0]);
-        highest = std::max(highest, point[1]);
-      }
-  if (least >= -axial)
+    for (const auto& [x, y, third, fourth] : series.points)
+      if (std::isfinite(x) && std::isfinite(y))
+        limits.include({x, y});
+  const auto& [axial, highest] = limits.high;
+  if (limits.low[0] >= -axial)
     return;
   chart.x.from = -axial;
   chart.x.to = 1.02 * axial;
@@ -120,19 +106,15 @@ Pictures stress_picture(const SameTests& same)
       const auto label = [&](const std::string& ending) {
         return beginning.empty() ? ending : is_uniform ? beginning + ", " + ending : beginning;
       };
-      add_stress_curve(
-        chart, of, [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1,
-        label(is_uniform ? std::string("axial") : std::string(kind.channel.name)), colour(*of.series, of.n));
+      const std::string its_colour = colour(*of.series, of.n);
+      add_stress_curve(chart, of, &CurveSample::axial_strain, false, 1.0, 1,
+                       label(std::string(is_uniform ? "axial" : kind.channel.name)), its_colour);
       if (!is_uniform)
         continue;
       const double peak = strain_at_peak(of.group);
       const double end = peak > 0.0 ? peak : 1.0;
-      add_stress_curve(
-        chart, of, [](const CurveSample& row) { return row.gauge_lateral_strain; }, true, end, 2, label("lateral"),
-        colour(*of.series, of.n));
-      add_stress_curve(
-        chart, of, [](const CurveSample& row) { return row.gauge_volumetric_strain; }, true, end, 4,
-        label("volumetric"), colour(*of.series, of.n));
+      add_stress_curve(chart, of, &CurveSample::gauge_lateral_strain, true, end, 2, label("lateral"), its_colour);
+      add_stress_curve(chart, of, &CurveSample::gauge_volumetric_strain, true, end, 4, label("volumetric"), its_colour);
     }
   if (is_uniform && !kind.follows_stages)
     end_with_axial_strain(chart);
@@ -168,20 +150,15 @@ Pictures compression_curves(const SeriesAmong& of)
   for (const ConfinedCurves& one : confined_curves(of.series()))
     {
       drawn.push_back({&of.series(), of.n, one.group});
-      add_stress_curve(
-        chart, drawn.back(), [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1, one.group.title(),
-        one.colour);
+      add_stress_curve(chart, drawn.back(), &CurveSample::axial_strain, false, 1.0, 1, one.group.title(), one.colour);
     }
   if (drawn.size() < 2)
     return {};
   std::erase_if(chart.series,
                 [](const ChartSeries& one) { return one.kind == ChartSeries::Kind::line && !one.goes_with.empty(); });
-  return {{.name = "compression_" + file_name(of.series().label),
-           .caption = (of.all.size() > 1 ? of.series().label + ": stress" : std::string("Stress")) +
+  return picture_of(std::move(chart), 660, 520, "compression_" + file_name(of.series().label),
+                    (of.all.size() > 1 ? of.series().label + ": stress" : std::string("Stress")) +
                       " against axial strain at every confinement" + means_of_several(drawn),
-           .alternative = "Axial stress against axial strain in compression, a line for each confinement.",
-           .width = 660,
-           .height = 520 + further_height(chart, 660),
-           .panels = {std::move(chart)}}};
+                    "Axial stress against axial strain in compression, a line for each confinement.");
 }
 } // namespace feldspar

@@ -3,13 +3,12 @@
 #include "report/pictures/figures.h"
 #include "report/pictures/maps/group_colour.h"
 #include "report/pictures/maps/map.h"
-#include "report/pictures/maps/parted_grains.h"
+#include "report/pictures/maps/near_grains.h"
 #include "report/pictures/maps/specimen_data.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace feldspar
@@ -20,9 +19,9 @@ namespace
 std::vector<Crack> carried(const FinishedTest& test)
 {
   std::vector<Crack> cracks = test.record.cracks;
-  const PartedGrains grains(test.appearance.grains_at_end);
+  const NearGrains grains(test.appearance.grains_at_end);
   for (Crack& crack : cracks)
-    for (const GrainPicture* grain : grains.of(crack))
+    for (const GrainPicture* grain : grains.parted_by(crack))
       for (std::size_t c = 0; c < 3 && grain != nullptr; ++c)
         crack.centroid[c] += 0.5 * (grain->position[c] - grain->start[c]);
   return cracks;
@@ -56,23 +55,24 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
   if (grains.empty() || record.curve.empty())
     return {};
   const auto all_stages = map_stages(record);
-  const std::string alternative =
-    fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.", title, seed_of(test),
-                test.results.n_tension_cracks, test.results.n_shear_cracks);
+  Picture picture{.name = test.name + "_cracks",
+                  .caption = fmt::format("{}, {}: cracks {}", title, seed_of(test), in_words(all_stages)),
+                  .alternative =
+                    fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.", title,
+                                seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
+                  .raster = true,
+                  .vector = false};
   if (record.dimension() == 3)
-    return {{.name = test.name + "_cracks",
-             .caption = fmt::format("{}, {}: cracks {}, on the half behind the mid-plane", title, seed_of(test),
-                                    in_words(all_stages)),
-             .alternative = alternative,
-             .width = 300 * int(all_stages.size()),
-             .height = 600,
-             .raster = true,
-             .vector = false,
-             .body = specimen_data({{&test, fmt::format("{}, {}", title, seed_of(test))}})}};
+    {
+      picture.caption += ", on the half behind the mid-plane";
+      picture.width = 300 * int(all_stages.size());
+      picture.height = 600;
+      picture.body = specimen_data({{&test, fmt::format("{}, {}", title, seed_of(test))}});
+      return {std::move(picture)};
+    }
   const MapFrame map_frame = map_frame_of(test);
   const MapLimits& frame = map_frame.frame;
   const auto colours = group_colours(grains);
-  std::vector<Chart> panels;
   for (const MapStage& stage : all_stages)
     {
       const bool at_end = &stage == &all_stages.back();
@@ -87,27 +87,20 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
       chart.series.push_back(std::move(circles));
       append(chart.series, flaw_lines(test));
       const std::vector<Crack> cracks = at_end ? carried(test) : record.cracks;
-      std::vector<Crack> broken;
-      std::ranges::copy_if(cracks, std::back_inserter(broken),
-                           [&](const Crack& crack) { return crack.step <= stage.last_step; });
+      std::vector<Crack> broken = cracks;
+      std::erase_if(broken, [&](const Crack& crack) { return crack.step > stage.last_step; });
       append(chart.series, crack_traces(broken, 1.8));
-      if (panels.empty())
+      if (picture.panels.empty())
         add_numbers(chart, cracks, stage, paper_of(frame));
-      panels.push_back(std::move(chart));
+      picture.panels.push_back(std::move(chart));
     }
   const auto [width, height] = panel_size(frame);
-  const int n_panels = int(panels.size());
-  const int columns = is_long(frame) ? 1 : n_panels;
-  return {{.name = test.name + "_cracks",
-           .caption = fmt::format("{}, {}: cracks {}{}{}", title, seed_of(test), in_words(all_stages),
-                                  record.cracks.empty() ? "" : "; numbers: the order in which the first joints broke",
-                                  map_frame.remark()),
-           .alternative = alternative,
-           .width = width * columns,
-           .height = height * (n_panels / columns),
-           .raster = true,
-           .vector = false,
-           .panels = std::move(panels),
-           .columns = columns}};
+  const int n_panels = int(picture.panels.size());
+  picture.columns = is_long(frame) ? 1 : n_panels;
+  picture.caption +=
+    (record.cracks.empty() ? "" : "; numbers: the order in which the first joints broke") + map_frame.remark();
+  picture.width = width * picture.columns;
+  picture.height = height * (n_panels / picture.columns);
+  return {std::move(picture)};
 }
 } // namespace feldspar

@@ -1,4 +1,3 @@
-
 #include "report/pictures/figures.h"
 #include "report/pictures/maps/map.h"
 #include "report/pictures/plot_style.h"

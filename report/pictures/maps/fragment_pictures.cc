@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -64,14 +63,10 @@ Pictures fragment_map(const FinishedTest& test, const std::string& title)
   const MapFrame map_frame = map_frame_of(test);
   const MapLimits& frame = map_frame.frame;
   const auto diameters = fragment_diameters(test);
-  double smallest = std::numeric_limits<double>::infinity();
-  double largest = 0.0;
+  Limits<1> of_loose;
   for (const auto& [number, diameter] : diameters)
     if (number > 0)
-      {
-        smallest = std::min(smallest, diameter);
-        largest = std::max(largest, diameter);
-      }
+      of_loose.include({diameter});
   const auto& grains = test.appearance.grains_at_end;
   ChartSeries body = grain_circles(grains, false);
   body.label = "largest piece";
@@ -88,10 +83,10 @@ Pictures fragment_map(const FinishedTest& test, const std::string& title)
   chart.colour = {.label = "equivalent diameter [mm]",
                   .logarithmic = true,
                   .ticks = {0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0}};
-  if (largest > 0.0)
+  if (of_loose.high[0] > 0.0)
     {
-      chart.colour.from = 0.95 * smallest / milli;
-      chart.colour.to = 1.05 * largest / milli;
+      chart.colour.from = 0.95 * of_loose.low[0] / milli;
+      chart.colour.to = 1.05 * of_loose.high[0] / milli;
     }
   const auto [width, height] = panel_size(frame);
   picture.caption =

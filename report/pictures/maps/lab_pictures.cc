@@ -30,23 +30,23 @@ Chart curve_of(const FinishedTest& test, const std::string& title, const bool is
                       .dashes = 2,
                       .to_the_right = true};
   ChartSeries shear{.label = "shear cracks", .colour = shear_colour, .width = 2.0, .dashes = 4, .to_the_right = true};
-  double least_strain = 0.0;
-  double least_stress = 0.0;
+  Limits<2> limits;
+  limits.include({0.0, 0.0});
   for (const CurveSample& row : test.record.curve)
     {
       const double strain = kind.sign * row.axial_strain / percent;
       stress.points.push_back({strain, kind.stress(row) / mega});
       tension.points.push_back({strain, double(row.n_tension_cracks)});
       shear.points.push_back({strain, double(row.n_shear_cracks)});
-      least_strain = std::min(least_strain, strain);
-      least_stress = std::min(least_stress, kind.stress(row) / mega);
+      limits.include({strain, kind.stress(row) / mega});
     }
-  Chart chart{.look = Chart::Look::sheet,
-              .title = title,
-              .x = {.label = fmt::format("{} [%]", kind.channel.strain_name), .from = is_measured ? least_strain : 0.0},
-              .y = {.label = fmt::format("{} [MPa]", kind.channel.name), .from = is_measured ? least_stress : 0.0},
-              .key_columns = 3,
-              .series = {std::move(stress)}};
+  Chart chart{
+    .look = Chart::Look::sheet,
+    .title = title,
+    .x = {.label = fmt::format("{} [%]", kind.channel.strain_name), .from = is_measured ? limits.low[0] : 0.0},
+    .y = {.label = fmt::format("{} [MPa]", kind.channel.name), .from = is_measured ? limits.low[1] : 0.0},
+    .key_columns = 3,
+    .series = {std::move(stress)}};
   if (is_measured)
     return chart;
   chart.right = {.label = "broken segments", .from = 0.0};

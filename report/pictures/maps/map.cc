@@ -131,34 +131,26 @@ std::string MapFrame::remark() const
 
 MapFrame map_frame_of(const FinishedTest& test)
 {
-  const TestRecord& record = test.record;
-  const auto axis_of = [&](const std::size_t c) { return c == 0 ? 0 : vertical_axis(record); };
+  const std::size_t axis = vertical_axis(test.record);
   MapLimits start;
   for (const auto& grain : test.appearance.grains_at_end)
-    for (std::size_t c = 0; c < 2; ++c)
-      {
-        start.low[c] = std::min(start.low[c], grain.start[axis_of(c)] - grain.radius);
-        start.high[c] = std::max(start.high[c], grain.start[axis_of(c)] + grain.radius);
-      }
-  const std::array<double, 2> size{start.width(), start.height()};
+    start.include({grain.start[0], grain.start[axis]}, grain.radius);
   MapFrame result{start};
   for (const auto& grain : test.appearance.grains_at_end)
     {
+      const std::array<double, 2> place{grain.position[0], grain.position[axis]};
       bool is_inside = true;
       for (std::size_t c = 0; c < 2; ++c)
-        is_inside &= grain.position[axis_of(c)] > start.low[c] - 0.5 * size[c] &&
-                     grain.position[axis_of(c)] < start.high[c] + 0.5 * size[c];
-      result.n_outside += !is_inside;
-      for (std::size_t c = 0; c < 2 && is_inside; ++c)
-        {
-          result.frame.low[c] = std::min(result.frame.low[c], grain.position[axis_of(c)] - grain.radius);
-          result.frame.high[c] = std::max(result.frame.high[c], grain.position[axis_of(c)] + grain.radius);
-        }
+        is_inside &= place[c] > start.low[c] - 0.5 * start.size(c) && place[c] < start.high[c] + 0.5 * start.size(c);
+      if (is_inside)
+        result.frame.include(place, grain.radius);
+      else
+        ++result.n_outside;
     }
   for (std::size_t c = 0; c < 2; ++c)
     {
-      result.frame.low[c] -= 0.02 * size[c];
-      result.frame.high[c] += 0.02 * size[c];
+      result.frame.low[c] -= 0.02 * start.size(c);
+      result.frame.high[c] += 0.02 * start.size(c);
     }
   return result;
 }
@@ -175,12 +167,12 @@ Chart empty_map(const MapLimits& frame, const TestRecord& record, const std::str
           .key_columns = 2};
 }
 
-bool is_long(const MapLimits& frame) { return frame.width() > 1.5 * frame.height(); }
+bool is_long(const MapLimits& frame) { return frame.size(0) > 1.5 * frame.size(1); }
 
 std::pair<int, int> panel_size(const MapLimits& frame)
 {
   constexpr int inner_height = 620;
-  const double ratio = frame.width() / frame.height();
+  const double ratio = frame.size(0) / frame.size(1);
   if (is_long(frame))
     return {1100, std::max(160, int(990.0 / ratio)) + 170};
   return {std::max(300, int(inner_height * ratio) + 110), inner_height + 170};
@@ -189,7 +181,7 @@ std::pair<int, int> panel_size(const MapLimits& frame)
 MapPaper paper_of(const MapLimits& frame)
 {
   constexpr double pixels_of_letter = 17.0;
-  return {frame.low, frame.high, pixels_of_letter * (is_long(frame) ? frame.width() / 990.0 : frame.height() / 620.0)};
+  return {frame.low, frame.high, pixels_of_letter * (is_long(frame) ? frame.size(0) / 990.0 : frame.size(1) / 620.0)};
 }
 
 std::vector<MapStage> map_stages(const TestRecord& record)

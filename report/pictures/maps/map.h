@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,14 +56,7 @@ std::size_t vertical_axis(const TestRecord& record);
 std::string seed_of(const FinishedTest& test);
 
 /// Limits of a map, its margins the same for all stages of a test.
-struct MapLimits
-{
-  std::array<double, 2> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  std::array<double, 2> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
-  double width() const { return high[0] - low[0]; }
-  double height() const { return high[1] - low[1]; }
-};
+using MapLimits = Limits<2>;
 
 /// Frame around all grains as they lay at the start and where they came to. Grains that flew farther than half the
 /// specimen's size are left out, because they would make the specimen small.

@@ -69,32 +69,30 @@ Pictures rve_picture(const FinishedTest& test, const std::string& title)
   std::vector<std::string> headings;
   for (std::size_t k = 0; k < rves.size(); ++k)
     headings.push_back(fmt::format("{}: {}", letter_of_rve(k), rves[k].which));
-  const std::string name = test.name + "_rves";
-  const std::string caption =
-    fmt::format("{}, seed {}: grains and cracks of the representative volumes at a few points of the "
-                "sample, along its axes, at the end",
-                title, test.record.seed);
-  const std::string alternative = fmt::format("Grains and cracks of {} representative volumes of {} (seed {}).",
-                                              rves.size(), title, test.record.seed);
   const bool in_space =
     test.appearance.fields.dimension == 3 || test.appearance.fields.has("crack_orientation_zz_per_m");
-  std::string story = viewer_data(test, headings, in_space);
-  const std::string live_caption = fmt::format(
-    "{}, seed {}: cracks of the representative volumes up to the place of the slider, on the curve of the sample",
-    title, test.record.seed);
+  const std::string whose = fmt::format("{}, seed {}", title, test.record.seed);
+  Picture picture{
+    .name = test.name + "_rves",
+    .caption = whose +
+               ": grains and cracks of the representative volumes at a few points of the sample, along its axes, "
+               "at the end",
+    .alternative = fmt::format("Grains and cracks of {} representative volumes of {} (seed {}).", rves.size(), title,
+                               test.record.seed),
+    .raster = true,
+    .vector = false,
+    .story = viewer_data(test, headings, in_space),
+    .live_caption =
+      whose + ": cracks of the representative volumes up to the place of the slider, on the curve of the sample"};
   if (in_space)
-    return {{.name = name,
-             .caption = caption +
-                        ". Grains behind the mid-plane, every broken element as a disc; seen from the front, a "
-                        "little from the right and from above",
-             .alternative = alternative,
-             .width = 300 * int(rves.size()),
-             .height = 400,
-             .raster = true,
-             .vector = false,
-             .body = story,
-             .story = story,
-             .live_caption = live_caption}};
+    {
+      picture.caption += ". Grains behind the mid-plane, every broken element as a disc; seen from the front, a little "
+                         "from the right and from above";
+      picture.width = 300 * int(rves.size());
+      picture.height = 400;
+      picture.body = picture.story;
+      return {std::move(picture)};
+    }
 
   double reach = 0.0; // from an RVE's point
   for (const PointRve& rve : rves)
@@ -106,7 +104,6 @@ Pictures rve_picture(const FinishedTest& test, const std::string& title)
           reach = std::max(reach, std::abs(crack.centroid[c] - rve.position[c]) + 0.5 * crack.size);
       }
   reach *= 1.03 / milli;
-  std::vector<Chart> panels;
   for (std::size_t k = 0; k < rves.size(); ++k)
     {
       const std::array<double, 2> centre{rves[k].position[0], rves[k].position[1]};
@@ -120,21 +117,14 @@ Pictures rve_picture(const FinishedTest& test, const std::string& title)
         .series = {grain_circles(rves[k].grains, false, centre), grain_circles(rves[k].grains, true, centre)}};
       chart.series.back().label = "cut off";
       append(chart.series, crack_traces(rves[k].cracks, 2.2, centre));
-      panels.push_back(std::move(chart));
+      picture.panels.push_back(std::move(chart));
     }
-  return {{.name = name,
-           .caption =
-             caption +
-             ". Coordinates are from the point of the sample; the cell is periodic, so that cracks at its rim go on at "
-             "the other side",
-           .alternative = alternative,
-           .width = 400 * int(rves.size()),
-           .height = 480,
-           .raster = true,
-           .vector = false,
-           .panels = std::move(panels),
-           .columns = int(rves.size()),
-           .story = std::move(story),
-           .live_caption = live_caption}};
+  picture.caption +=
+    ". Coordinates are from the point of the sample; the cell is periodic, so that cracks at its rim go on at the other "
+    "side";
+  picture.width = 400 * int(rves.size());
+  picture.height = 480;
+  picture.columns = int(rves.size());
+  return {std::move(picture)};
 }
 } // namespace feldspar

@@ -1,11 +1,12 @@
 #include "report/pictures/maps/specimen_data.h"
 
 #include "base/colour.h"
+#include "base/mapped.h"
 #include "base/prefixes.h"
 #include "report/chart/page_writer.h"
 #include "report/pictures/maps/group_colour.h"
 #include "report/pictures/maps/map.h"
-#include "report/pictures/maps/parted_grains.h"
+#include "report/pictures/maps/near_grains.h"
 #include "results/emission.h"
 
 #include <nlohmann/json.hpp>
@@ -71,22 +72,13 @@ struct Cube
 
 Cube cube_around(const TestRecord& record, const std::vector<GrainPicture>& grains)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{infinity, infinity, infinity};
-  std::array<double, 3> high{-infinity, -infinity, -infinity};
-  const auto include = [&](const std::array<double, 3>& place) {
-    for (std::size_t c = 0; c < 3; ++c)
-      {
-        low[c] = std::min(low[c], place[c]);
-        high[c] = std::max(high[c], place[c]);
-      }
-  };
+  Limits<3> limits;
   for (const GrainPicture& grain : grains)
-    include(grain.start);
+    limits.include(grain.start);
   for (const Crack& crack : record.cracks)
-    include(crack.centroid);
-  const double span = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  return {low, span > 0.0 ? span : 1.0};
+    limits.include(crack.centroid);
+  const double span = std::max({limits.size(0), limits.size(1), limits.size(2)});
+  return {limits.low, span > 0.0 ? span : 1.0};
 }
 
 /// One of how many is kept.
@@ -98,12 +90,10 @@ unsigned int pale(const unsigned int colour) { return ((colour >> 1U) & 0x7f7f7f
 std::vector<unsigned int> mineral_colours(const std::vector<GrainPicture>& grains,
                                           const std::vector<MineralShare>& minerals)
 {
-  std::vector<unsigned int> colours;
-  for (const GrainPicture& grain : grains)
-    colours.push_back(grain.mineral > 0 && grain.mineral <= minerals.size()
-                        ? pale(minerals[grain.mineral - 1].mineral.colour)
-                        : 0xffffffU);
-  return colours;
+  return mapped<unsigned int>(grains, [&](const GrainPicture& grain) {
+    return grain.mineral > 0 && grain.mineral <= minerals.size() ? pale(minerals[grain.mineral - 1].mineral.colour)
+                                                                 : 0xffffffU;
+  });
 }
 
 Json grain_data(const std::vector<GrainPicture>& grains, const std::vector<MineralShare>& minerals,
@@ -149,10 +139,8 @@ Json grain_data(const std::vector<GrainPicture>& grains, const std::vector<Miner
 /// The first of the rows that is not before a step.
 std::size_t row_of(const std::uint64_t step, const std::vector<const CurveSample*>& rows)
 {
-  const auto row =
-    std::lower_bound(rows.begin(), rows.end() - 1, step,
-                     [](const CurveSample* one, const std::uint64_t its_step) { return one->step < its_step; });
-  return std::size_t(row - rows.begin());
+  return std::size_t(std::ranges::lower_bound(rows.begin(), rows.end() - 1, step, {}, &CurveSample::step) -
+                     rows.begin());
 }
 
 Json crack_data(const std::vector<Crack>& cracks, const std::vector<GrainPicture>& grains,
@@ -160,10 +148,10 @@ Json crack_data(const std::vector<Crack>& cracks, const std::vector<GrainPicture
                 const double largest_size)
 {
   const std::size_t every = stride_of(cracks.size(), most);
-  const PartedGrains parted(grains);
+  const NearGrains near(grains);
   std::vector<double> opening;
   for (std::size_t k = 0; k < cracks.size(); k += every)
-    opening.push_back(parted.opening(cracks[k]));
+    opening.push_back(near.opening(cracks[k]));
   const double most_open = opening.empty() ? 0.0 : std::max(*std::ranges::max_element(opening), 1e-12);
   Bytes places, normals, of_rows, joints, openings;
   for (const double one : opening)
@@ -218,18 +206,16 @@ Json event_data(const TestRecord& record, const std::vector<const CurveSample*>&
           {"breaks", breaks.text()}, {"measures", measures.text()}};
 }
 
+Json in_millimetres(const std::array<double, 3>& place)
+{
+  return {live::number(place[0] / milli), live::number(place[1] / milli), live::number(place[2] / milli)};
+}
+
 Json flaw_data(const std::vector<FlawPicture>& flaws)
 {
-  Json all = Json::array();
-  for (const auto& flaw : flaws)
-    {
-      Json outline = Json::array();
-      for (const auto& point : flaw.outline)
-        outline.push_back(
-          {live::number(point[0] / milli), live::number(point[1] / milli), live::number(point[2] / milli)});
-      all.push_back({{"open", flaw.open}, {"outline", outline}});
-    }
-  return all;
+  return mapped<Json>(flaws, [](const FlawPicture& flaw) {
+    return Json{{"open", flaw.open}, {"outline", mapped<Json>(flaw.outline, in_millimetres)}};
+  });
 }
 
 bool is_shown(const TitledTest& one)
@@ -275,23 +261,22 @@ Json data_of(const TitledTest& one, const std::size_t n)
   double size = std::numeric_limits<double>::min();
   for (const Crack& crack : cracks)
     size = std::max(size, crack.size);
-  return {
-    {"title", one.title},
-    {"colour", one.colour},
-    {"space", record.dimension() == 3},
-    {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
-    {"low", {live::number(cube.low[0] / milli), live::number(cube.low[1] / milli), live::number(cube.low[2] / milli)}},
-    {"span", live::number(cube.span / milli)},
-    {"radius", live::number(radius / milli)},
-    {"size", live::number(size / milli)},
-    {"gap", live::number(record.specimen.installation_gap_ratio * mean_radius / milli)},
-    {"rows", rows},
-    {"minerals", minerals},
-    {"stages", stages},
-    {"grains", grain_data(grains, record.minerals, most_grains / n, cube, radius)},
-    {"flaws", flaw_data(test.appearance.flaws)},
-    {"cracks", crack_data(cracks, grains, kept, cube, most_cracks / n, size)},
-    {"events", event_data(record, kept, cube, most_events / n)}};
+  return {{"title", one.title},
+          {"colour", one.colour},
+          {"space", record.dimension() == 3},
+          {"strain", std::string(record.kind.channel.strain_name) + " [10⁻³]"},
+          {"low", in_millimetres(cube.low)},
+          {"span", live::number(cube.span / milli)},
+          {"radius", live::number(radius / milli)},
+          {"size", live::number(size / milli)},
+          {"gap", live::number(record.specimen.installation_gap_ratio * mean_radius / milli)},
+          {"rows", rows},
+          {"minerals", minerals},
+          {"stages", stages},
+          {"grains", grain_data(grains, record.minerals, most_grains / n, cube, radius)},
+          {"flaws", flaw_data(test.appearance.flaws)},
+          {"cracks", crack_data(cracks, grains, kept, cube, most_cracks / n, size)},
+          {"events", event_data(record, kept, cube, most_events / n)}};
 }
 } // namespace
 
