@@ -3,8 +3,8 @@
 #include "dem/storage/grains.h"
 
 #include <array>
-#include <compare>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 /// A periodic body repeats itself in every direction over its box, the cell. Where grains near opposite sides meet, one of them is
@@ -17,7 +17,11 @@ struct PeriodicImage
   std::uint32_t owner;
   std::array<int, dim> boxes; ///< how many boxes away, along each axis
 
-  auto operator<=>(const PeriodicImage&) const = default;
+  bool operator==(const PeriodicImage&) const = default;
+  bool operator<(const PeriodicImage& other) const
+  {
+    return std::tie(owner, boxes) < std::tie(other.owner, other.boxes);
+  }
 };
 
 /// Displacement of an image from its owner [m]; the columns of `cell` are the edges of the box.

@@ -923,7 +923,8 @@ TEST_F(Report, NamesThePackageWithoutWhichThereIsNoFilm)
                  without_programs());
   // A page without specimens has no film either.
   folder.write("core.csv", measured_curve());
-  const auto without = run_feldspar(folder, "report --curve core.csv --output curve --film"); // known once the page is made
+  const auto without =
+    run_feldspar(folder, "report --curve core.csv --output curve --film"); // known once the page is made
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_TRUE(has_words(without.error, "shows no specimen with cracks"));
   EXPECT_FALSE(fs::exists(folder / "curve/film.webp"));
