@@ -4,23 +4,10 @@
 #include "dem/laws/face_elements.h"
 
 #include <algorithm>
-#include <array>
 #include <variant>
-#include <vector>
 
 namespace feldspar
 {
-namespace
-{
-/// Sums over the contacts of a body.
-template <int dim>
-struct Stiffness
-{
-  std::array<double, dim> moving{};               ///< against motion along each axis [N/m]
-  std::array<double, n_rotations<dim>> turning{}; ///< against a turn about each [N m]
-};
-} // namespace
-
 template <int dim>
 double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGroups<dim>& groups, const GrainRange& own,
                                       const Incidence& joints_of, const Touches<dim>& touches, const Walls<dim>& walls)
@@ -31,32 +18,33 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   const Grains<dim>& bodies = groups.empty() ? grains : groups.bodies;
   const GrainRange moved = groups.empty() ? own : GrainRange{0, std::uint32_t(groups.size())};
   const std::size_t n_bodies = groups.empty() ? grains.size() : groups.size();
-  std::vector<Stiffness<dim>> of_bodies(n_bodies);
-  const auto body_of = [&](const std::uint32_t grain) { return groups.empty() ? grain : groups.body_of(grain); };
+  Components<dim> k;
+  resize<dim>(k, n_bodies);
+  Components<n_rotations<dim>> k_turning;
+  resize<n_rotations<dim>>(k_turning, n_bodies);
   // Adds a contact at `arm` from the centre of a grain along the normal; negative: against it.
-  const auto add_to = [&](Stiffness<dim>& k, const std::uint32_t grain, const auto& normal, const double k_n,
-                          const double k_s, const double arm, const double k_bending, const double k_twist) {
+  const auto add = [&](const std::uint32_t grain, const auto& normal, const double k_n, const double k_s,
+                       const double arm, const double k_bending, const double k_twist) {
+    std::uint32_t i = grain;
     if constexpr (dim == 2)
       if (!groups.empty())
         {
           // Turning a group moves the contact across its arm from the centre of the group, which does not lie along the
           // normal.
-          const Vector<2> from_centre = at<2>(grains.position, grain) - at<2>(bodies.position, body_of(grain)) +
-                                        arm * Vector<2>(normal[0], normal[1]);
+          i = groups.body_of(grain);
+          const Vector<2> from_centre =
+            at<2>(grains.position, grain) - at<2>(bodies.position, i) + arm * Vector<2>(normal[0], normal[1]);
           const double along = from_centre[0] * normal[0] + from_centre[1] * normal[1];
           const double across = from_centre[1] * normal[0] - from_centre[0] * normal[1];
-          k.turning[0] += (k_n * across * across + k_s * along * along) - k_s * arm * arm;
+          k_turning[0][i] += (k_n * across * across + k_s * along * along) - k_s * arm * arm;
         }
     for (int c = 0; c < dim; ++c)
-      k.moving[c] += k_n * normal[c] * normal[c] + k_s * (1.0 - normal[c] * normal[c]);
+      k[c][i] += k_n * normal[c] * normal[c] + k_s * (1.0 - normal[c] * normal[c]);
     for (int c = 0; c < n_rotations<dim>; ++c)
       {
         const double axial = dim == 3 ? normal[c] * normal[c] : 0.0; // discs turn about an axis across every normal
-        k.turning[c] += (k_s * arm * arm + k_bending) * (1.0 - axial) + k_twist * axial;
+        k_turning[c][i] += (k_s * arm * arm + k_bending) * (1.0 - axial) + k_twist * axial;
       }
-  };
-  const auto add = [&](const std::uint32_t grain, const auto&... contact) {
-    add_to(of_bodies[body_of(grain)], grain, contact...);
   };
   const auto add_touch = [&](const Touch<dim>& touch, const bool is_second, const std::uint32_t grain) {
     const double k_s = body.particle_contact.friction > 0.0 ? touch.stiffness.shear : 0.0;
@@ -69,18 +57,15 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   const auto add_contacts = [&](const auto& law, const std::size_t begin, const std::size_t end) {
     for (auto i = own.first + std::uint32_t(begin); i < own.first + end; ++i)
       {
-        auto& sum = of_bodies[body_of(i)];
-        Stiffness<dim> k = sum; // in registers
         for (auto e = joints_of.first[i]; e < joints_of.first[i + 1]; ++e)
           {
             const std::uint32_t j = joints_of.entries[e] / 2;
             const bool is_second = joints_of.entries[e] % 2;
             const FaceSprings springs = law.stiffest(joints.face(j));
             const auto a = arms(joints.rest_distance[j] + joints.opening[j], joints.half_radius_difference[j]);
-            add_to(k, i, at<dim>(joints.normal, j), springs.normal, springs.shear, is_second ? -a.two : a.one,
-                   springs.bending, springs.twist);
+            add(i, at<dim>(joints.normal, j), springs.normal, springs.shear, is_second ? -a.two : a.one,
+                springs.bending, springs.twist);
           }
-        sum = k;
         if (by_touches)
           continue;
         for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
@@ -127,9 +112,9 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   for (std::size_t i = moved.first; i < moved.end; ++i)
     {
       for (int c = 0; c < dim; ++c)
-        largest = std::max(largest, of_bodies[i].moving[c] / bodies.mass[i]);
+        largest = std::max(largest, k[c][i] / bodies.mass[i]);
       for (int c = 0; c < n_rotations<dim>; ++c)
-        largest = std::max(largest, of_bodies[i].turning[c] / bodies.moment_of_inertia[i]);
+        largest = std::max(largest, k_turning[c][i] / bodies.moment_of_inertia[i]);
     }
   return largest;
 }
