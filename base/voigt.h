@@ -19,6 +19,13 @@ using Voigt = Eigen::Matrix<double, n_voigt<dim>, 1>;
 template <int dim>
 using Stiffness = Eigen::Matrix<double, n_voigt<dim>, n_voigt<dim>>;
 
+/// Engineering over tensor strain of a component: 1, of shear 2.
+template <int dim>
+constexpr double engineering_factor(const int k)
+{
+  return k < dim ? 1.0 : 2.0;
+}
+
 /// Row and column of a Voigt component.
 template <int dim>
 constexpr std::pair<int, int> voigt_pair(const int k)

@@ -33,7 +33,7 @@ const Network<dim>& network(const double width)
   return known.try_emplace(width, make_specimen<dim>(wanted, joint, {}, 1)).first->second;
 }
 
-constexpr double lent = 1e-6; // of the diagonal, so that nothing floats
+constexpr double relative_shift = 1e-6; // of the diagonal, so that nothing floats
 
 template <int dim>
 auto pattern_of_joints(const Network<dim>& of)
@@ -50,7 +50,7 @@ BlockFactor<dim> stiffness(const Network<dim>& of, const std::shared_ptr<const S
     matrix.add(of.links()[k], of.bonded_stiffness(k));
   for (std::size_t i = 0; i < of.n_grains(); ++i)
     for (int c = 0; c < n_motions<dim>; ++c)
-      matrix.set_diagonal(i, c, (1.0 + lent) * matrix.diagonal(i, c));
+      matrix.set_diagonal(i, c, (1.0 + relative_shift) * matrix.diagonal(i, c));
   return matrix;
 }
 
@@ -73,7 +73,7 @@ Eigen::SparseMatrix<double> sparse_stiffness(const Network<dim>& of)
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   for (Eigen::Index i = 0; i < size; ++i)
-    matrix.coeffRef(i, i) *= 1.0 + lent;
+    matrix.coeffRef(i, i) *= 1.0 + relative_shift;
   return matrix;
 }
 

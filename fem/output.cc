@@ -1,6 +1,7 @@
 #include "fem/output.h"
 
 #include "base/system/hdf5_archive.h"
+#include "base/voigt.h"
 #include "base/whole_file.h"
 
 #include <deal.II/base/mpi.h>
@@ -55,9 +56,9 @@ std::vector<CellField> cell_fields(const Solid<dim, material_dim>& solid)
   for (std::size_t c = 0; c < components.size(); ++c)
     if (!components[c].empty())
       {
-        const double to_tensor = c < material_dim ? 1.0 : 0.5; // from engineering shear
         add("stress_" + components[c] + "_Pa", [&](const std::size_t i) { return solid.responses()[i].stress[c]; });
-        add("strain_" + components[c], [&](const std::size_t i) { return to_tensor * solid.strains()[i][c]; });
+        add("strain_" + components[c],
+            [&](const std::size_t i) { return solid.strains()[i][c] / engineering_factor<material_dim>(int(c)); });
       }
 
   std::vector<std::vector<double>> material_fields;

@@ -175,10 +175,10 @@ std::vector<SampleFields> read_earlier_sample_fields(const std::filesystem::path
 }
 
 void for_each_time(const std::filesystem::path& folder, const std::string& name,
-                   const std::function<void(const SampleFields&)>& look)
+                   const std::function<void(const SampleFields&)>& use)
 {
   const auto index = index_of(folder, name);
   for (const IndexedTime& one : times_in(index))
-    look(fields_of(index, one));
+    use(fields_of(index, one));
 }
 } // namespace feldspar

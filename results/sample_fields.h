@@ -19,5 +19,5 @@ std::vector<SampleFields> read_earlier_sample_fields(const std::filesystem::path
 
 /// Reads the same of every time, from the first on, one at a time.
 void for_each_time(const std::filesystem::path& folder, const std::string& name,
-                   const std::function<void(const SampleFields&)>& look);
+                   const std::function<void(const SampleFields&)>& use);
 } // namespace feldspar

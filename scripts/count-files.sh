@@ -25,7 +25,8 @@ role()
     tests/*) echo tests ;;
     *CMakeLists.txt | cmake/*) echo build ;;
     *.md | examples/* | docs/*) echo docs ;;
-    app/* | base/* | calibration/* | coupling/* | dem/* | fem/* | laboratory/* | report/* | results/* | runs/*)
+    app/* | base/* | calibration/* | coupling/* | dem/* | fem/* | include/* | interfaces/* | laboratory/* | library/* | python/* | \
+      report/* | results/* | runs/*)
       [[ "$status" == A ]] && echo new || echo changed ;;
     *) echo other ;;
   esac

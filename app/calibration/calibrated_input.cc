@@ -40,7 +40,7 @@ double to_figures(const double value, const double unit)
 
 MicroParameters micro_parameters(const Input& input)
 {
-  const FlatJointParameters& joint = input.flat_joint;
+  const FlatJointParameters& joint = std::get<FlatJointParameters>(input.joints);
   return {joint.modulus,
           joint.bond_tensile_strength,
           joint.stiffness_ratio,
@@ -54,8 +54,8 @@ MicroParameters micro_parameters(const Input& input)
 Input with_parameters(const Input& input, const MicroParameters& parameters)
 {
   Input result = input;
-  FlatJointParameters& joint = result.flat_joint;
-  const FlatJointParameters& before = input.flat_joint;
+  FlatJointParameters& joint = std::get<FlatJointParameters>(result.joints);
+  const FlatJointParameters& before = std::get<FlatJointParameters>(input.joints);
   ParticleContactParameters& contact = result.particle_contact;
   joint.modulus = without_round_off(parameters.modulus);
   joint.stiffness_ratio = without_round_off(parameters.stiffness_ratio);

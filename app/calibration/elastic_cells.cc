@@ -60,8 +60,9 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
   constexpr std::size_t n_ratios = 17;
   constexpr std::size_t n_gaps = 9;
   const Input cell = cell_of(input);
-  const std::vector<double> ratios =
-    stiffness_ratio ? spread(*stiffness_ratio, n_ratios) : std::vector{input.flat_joint.stiffness_ratio};
+  const std::vector<double> ratios = stiffness_ratio
+                                       ? spread(*stiffness_ratio, n_ratios)
+                                       : std::vector{std::get<FlatJointParameters>(input.joints).stiffness_ratio};
   const std::vector<double> gaps = gap ? spread(*gap, n_gaps) : std::vector{gap_of_specimens};
   using Constants = ElasticTable::Constants;
   std::vector<std::vector<Constants>> constants(gaps.size(), std::vector<Constants>(ratios.size()));
@@ -98,10 +99,11 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
         Specimen<dim> specimen = packing;
         specimen.joints = {};
         specimen.particle_contact = order.rock.particle_contact;
-        install_joints(specimen, order.rock.flat_joint);
+        install_joints(specimen, std::get<FlatJointParameters>(order.rock.joints));
         put_in_minerals(specimen, order.rock.minerals);
         const IsotropicConstants of_cell = isotropic_constants<dim>(Network<dim>(specimen).intact_stiffness());
-        mean.modulus_ratio += of_cell.youngs_modulus / order.rock.flat_joint.modulus / double(n_packings);
+        mean.modulus_ratio +=
+          of_cell.youngs_modulus / std::get<FlatJointParameters>(order.rock.joints).modulus / double(n_packings);
         mean.poissons_ratio += of_cell.poissons_ratio / double(n_packings);
       }
     constants[order.gap][order.ratio] = mean;
@@ -114,7 +116,8 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
 template <int dim>
 Specimen<dim> packing_of(const Input& input, const std::uint64_t seed)
 {
-  return make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, seed, end_if_interrupted);
+  return make_specimen<dim>(input.specimen, std::get<FlatJointParameters>(input.joints), input.particle_contact, seed,
+                            end_if_interrupted);
 }
 
 template decltype(elastic_constants<2>) elastic_constants<2>;

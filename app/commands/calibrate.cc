@@ -58,8 +58,8 @@ public:
     const Specimen<dim> first = packing_of<dim>(input, next_packing);
     progress.finish(fmt::format("{} grains", first.grains.size()));
     tell_cost(first);
-    ResponseModel model =
-      elastic_stage(input.flat_joint.installation_gap_ratio.value_or(first.report.installation_gap_ratio));
+    ResponseModel model = elastic_stage(
+      std::get<FlatJointParameters>(input.joints).installation_gap_ratio.value_or(first.report.installation_gap_ratio));
     if (const std::string objection = design_stage(model); !objection.empty())
       return {false, objection}; // its tests stay
 
@@ -83,7 +83,8 @@ private:
     std::vector<LaboratoryOrder> of_specimen;
     for (const TestCase& test : programme)
       of_specimen.push_back({test, &rock.tests, &rock.dynamics});
-    const double of_waves = std::sqrt(guess.modulus / input.flat_joint.modulus); // steps are as short as they are fast
+    const double of_waves = std::sqrt(
+      guess.modulus / std::get<FlatJointParameters>(input.joints).modulus); // steps are as short as they are fast
     const double seconds = (of_waves * expected_effort<dim>(of_specimen, {{"", rock}}, {&first, 1}).processor_seconds +
                             expected_effort(input.specimen).seconds) /
                            n_threads_served();

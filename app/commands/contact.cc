@@ -36,23 +36,6 @@ Face<double> make_face(const typename Law::Parameters& joint, const Input& input
           Law::friction(joint, input.particle_contact)};
 }
 
-/// Mean normal stress after an update of an element whose update tells its normal response [Pa].
-template <int dim, typename Law, typename Update>
-double normal_stress(const Law&, const Face<double>& face, const FaceElement<dim>& element,
-                     const FaceMotion<dim, double>&, const Update& update)
-{
-  return mean_stress(place_segment(face, element).segment, update.normal);
-}
-
-/// Normal stress of the bond.
-template <int dim>
-double normal_stress(const ParallelBond<dim>&, const Face<double>& face, const FaceElement<dim>&,
-                     const FaceMotion<dim, double>& motion,
-                     const typename ParallelBond<dim>::template Update<double>& update)
-{
-  return update.state.bonded ? face.normal_stiffness * motion.opening : 0.0;
-}
-
 /// The state of an element after the update by its law.
 template <typename Update>
 struct Segments
@@ -145,7 +128,7 @@ std::string response(const Law& law, const typename Law::Parameters& joint, cons
       for (std::size_t i = 0; i < elements.size(); ++i)
         {
           const auto& update = segments.updates[i];
-          append(normal_stress(law, face, elements[i], motion, update));
+          append(Law::normal_stress(face, elements[i], motion, update));
           for (const double tau : update.state.shear_stress)
             append(tau);
           fmt::format_to(std::back_inserter(table), ",{:d}", update.state.bonded);

@@ -38,7 +38,7 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
   for (const auto& test : tests)
     if (const RankBalance& of_ranks = test.bookkeeping.ranks; ranks::number() > 1 && of_ranks.mean > 0.0)
       text += fmt::format(
-        "{}: longest over mean time of the ranks {:.2f}, had no cell moved {:.2f}; cells were dealt out "
+        "{}: longest over mean time of the ranks {:.2f}, had no cell moved {:.2f}; cells were distributed "
         "anew {} times\n",
         test.name, of_ranks.longest / of_ranks.mean, of_ranks.longest_unmoved / of_ranks.mean, of_ranks.n_moves);
   for (const auto& remark : remarks)

@@ -147,7 +147,7 @@ std::string readable_file(const Input& input, const std::string_view text)
   return path.string();
 }
 
-Parameter parameter_of(const std::string_view section, const Entry<Input>& entry)
+Parameter parameter_of(const std::string& section, const Entry<Input>& entry)
 {
   const Text form = std::visit([](const auto& value) { return text_form(value); }, entry.value);
   return {section,   entry.name, std::string(form.unit), form.range, entry.meaning, entry.flags, entry.id,

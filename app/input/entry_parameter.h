@@ -8,7 +8,7 @@
 namespace feldspar
 {
 /// Makes a parameter of the input from an entry beside its struct: text to values in SI, and back.
-Parameter parameter_of(std::string_view section, const Entry<Input>& entry);
+Parameter parameter_of(const std::string& section, const Entry<Input>& entry);
 
 /// Reads a number in SI; its range is given in `unit`. Throws InputError, which says the range and `or_else`.
 double read_number(std::string_view text, Measure measure, std::string_view unit, const Range& range,

@@ -46,7 +46,7 @@ void check_demands(const Input& input, const GivenEntries& values)
 /// One of two entries says which pairs get a joint; a coordination number takes the place of the default gap.
 void settle_installation(Input& input, const GivenEntries& values)
 {
-  for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
+  JointLaws::for_each(input.joints, [&](const std::string_view law, auto& joint) {
     const std::string entry = section_of(law) + "/Installation gap ratio";
     if (joint.coordination_number && !values.has(entry))
       joint.installation_gap_ratio.reset();
@@ -59,7 +59,7 @@ void settle_installation(Input& input, const GivenEntries& values)
 
 void check_bonds(const Input& input, const GivenEntries& values)
 {
-  for_each_joint_section(input, [&](const std::string_view law, const auto& joint) {
+  JointLaws::for_each(input.joints, [&](const std::string_view law, const auto& joint) {
     if (joint.gapped_fraction + joint.slit_fraction > 1.0)
       throw values.error(section_of(law) + "/Slit fraction", "must be at most 1 together with Gapped fraction = {}",
                          values.value(section_of(law) + "/Gapped fraction"));

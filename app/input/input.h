@@ -10,7 +10,7 @@
 #include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/shapes.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/laws/parameters.h"
+#include "dem/laws/joint_laws.h"
 #include "dem/minerals/parameters.h"
 #include "dem/specimen/parameters.h"
 #include "laboratory/kinds.h"
@@ -98,9 +98,7 @@ struct Input
   SpecimenParameters specimen;
   MineralParameters minerals;
   FlawParameters flaws;
-  FlatJointParameters flat_joint;
-  ParallelBondParameters parallel_bond;
-  SofteningFlatJointParameters softening_flat_joint;
+  JointLaws::AllParameters joints; ///< of each joint law, from the section of its name
   ParticleContactParameters particle_contact;
   SmoothJointParameters smooth_joint;
   MineralGrainParameters mineral_grains;

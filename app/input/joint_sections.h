@@ -19,20 +19,11 @@ inline std::string section_of(const std::string_view law_name)
   return section;
 }
 
-/// Calls f(law, parameters) for each joint law, given by its name, and the member of the input that its section fills.
-template <typename AnyInput, typename F>
-void for_each_joint_section(AnyInput& input, F&& f)
-{
-  f(FlatJoint<2>::name, input.flat_joint);
-  f(ParallelBond<2>::name, input.parallel_bond);
-  f(SofteningFlatJoint<2>::name, input.softening_flat_joint);
-}
-
 /// The parameters of the joint law that the input names.
 inline JointParameters joint_parameters(const Input& input)
 {
   std::optional<JointParameters> parameters;
-  for_each_joint_section(input, [&](const std::string_view law, const auto& of_law) {
+  JointLaws::for_each(input.joints, [&](const std::string_view law, const auto& of_law) {
     if (law == input.specimen.joint_law)
       parameters = of_law;
   });

@@ -32,12 +32,11 @@ namespace
 std::vector<Parameter> make_parameter_table()
 {
   std::vector<Parameter> table;
-  const auto add_own = [&](const std::string_view section, const std::vector<Entry<Input>>& entries) {
+  const auto add_own = [&](const std::string& section, const std::vector<Entry<Input>>& entries) {
     for (const Entry<Input>& one : entries)
       table.push_back(parameter_of(section, one));
   };
-  const auto add = [&]<typename P>(const std::string_view section, const auto part,
-                                   const std::vector<Entry<P>>& entries) {
+  const auto add = [&]<typename P>(const std::string& section, const auto part, const std::vector<Entry<P>>& entries) {
     for (const Entry<P>& one : entries)
       add_own(section, {within<Input>(
                          one, [part](const Input& input) -> const P& { return std::invoke(part, input); },
@@ -45,9 +44,11 @@ std::vector<Parameter> make_parameter_table()
   };
   add("Specimen", &Input::specimen, specimen_entries());
   add("Specimen", &Input::specimen, sieve_curve_entries());
-  add("Flat joint", &Input::flat_joint, flat_joint_entries());
-  add("Softening flat joint", &Input::softening_flat_joint, softening_flat_joint_entries());
-  add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
+  static const JointLaws::AllParameters joints;
+  JointLaws::for_each(joints, [&]<typename P>(const std::string_view law, const P& parameters) {
+    add(
+      section_of(law), [](auto& input) -> auto& { return std::get<P>(input.joints); }, joint_entries(parameters));
+  });
   add("Particle contact", &Input::particle_contact, particle_contact_entries());
   add("Smooth joint", &Input::smooth_joint, smooth_joint_entries());
   add_own("Minerals", mineral_file_entries());

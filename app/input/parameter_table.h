@@ -14,7 +14,7 @@ namespace feldspar
 /// One entry of the input: all there is to know about it.
 struct Parameter
 {
-  std::string_view section;
+  std::string section;
   std::string_view entry;
   std::string unit; ///< in which it is shown; any other of its dimension may be written
   std::string range;

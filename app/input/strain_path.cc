@@ -13,12 +13,6 @@ namespace feldspar
 namespace
 {
 template <int dim>
-constexpr double engineering(const int k)
-{
-  return k < dim ? 1.0 : 2.0; // γ = 2ε
-}
-
-template <int dim>
 std::vector<PathLeg<dim>> legs_along_direction(const StrainPathParameters& path)
 {
   std::vector<PathLeg<dim>> legs;
@@ -32,7 +26,7 @@ std::vector<PathLeg<dim>> legs_along_direction(const StrainPathParameters& path)
     if (path.direction[k])
       {
         straining.stress_given[k] = false;
-        straining.strain[k] = engineering<dim>(k) * path.size * *path.direction[k];
+        straining.strain[k] = engineering_factor<dim>(k) * path.size * *path.direction[k];
       }
   legs.push_back({straining, true});
   return legs;
@@ -92,7 +86,7 @@ std::vector<PathLeg<dim>> legs_from_file(const std::string& file)
             throw InputError("{}: point {}: strain_{} = {}: must lie in [-{}, {}]", file, legs.size() + 1,
                              voigt_name<dim>(k), value, largest_strain, largest_strain);
           (control.stress_given[k] ? control.stress[k] : control.strain[k]) =
-            control.stress_given[k] ? value : engineering<dim>(k) * value;
+            control.stress_given[k] ? value : engineering_factor<dim>(k) * value;
         }
       legs.push_back({control, false});
     }

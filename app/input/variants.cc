@@ -35,7 +35,7 @@ VariantSetting set(Input& input, const std::string& entry, const std::string& va
   const Parameter& parameter = *find_parameter(entry);
   rephrased([&] { parameter.read(input, value); },
             [&](const std::string& what) { return InputError("{} = {}: {}", entry, excerpt(value), what); });
-  for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
+  JointLaws::for_each(input.joints, [&](const std::string_view law, auto& joint) {
     if (parameter.section != section_of(law))
       return;
     if (parameter.entry == "Coordination number")

@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 template <int dim>
 double outside(const PathSample<dim>& sample, const int k)
 {
-  return (k < dim ? 1.0 : 0.5) * sample.strain[k];
+  return sample.strain[k] / engineering_factor<dim>(k);
 }
 
 template <int dim>

@@ -14,9 +14,9 @@ FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, c
 {
   constexpr int n = n_motions<dim>;
   const Eigen::Index n_own = n * Eigen::Index(n_grains);
-  const auto bears = [&](const std::uint32_t link) { return stiffnesses[link] != nullptr; };
+  const auto has_stiffness = [&](const std::uint32_t link) { return stiffnesses[link] != nullptr; };
   const auto made =
-    std::make_shared<BlockFactor<dim>>(std::make_shared<const StiffnessPattern>(links, n_grains, bears));
+    std::make_shared<BlockFactor<dim>>(std::make_shared<const StiffnessPattern>(links, n_grains, has_stiffness));
   Eigen::MatrixXd of_unit_strains = Eigen::MatrixXd::Zero(n_own, n_voigt<dim>);
   for (std::uint32_t k = 0; k < links.size(); ++k)
     if (const JointStiffness<dim>* const stiffness = stiffnesses[k])

@@ -13,11 +13,11 @@ namespace
 /// The place of each grain.
 template <int dim>
 std::vector<std::uint32_t> ordered_for_little_fill(const std::vector<Link<dim>>& links, const std::size_t n_grains,
-                                                   const std::function<bool(std::uint32_t)>& bears)
+                                                   const std::function<bool(std::uint32_t)>& has_stiffness)
 {
   std::vector<Eigen::Triplet<double>> neighbours;
   for (std::uint32_t k = 0; k < links.size(); ++k)
-    if (bears(k))
+    if (has_stiffness(k))
       {
         neighbours.emplace_back(int(links[k].grain_1), int(links[k].grain_2), 1.0);
         neighbours.emplace_back(int(links[k].grain_2), int(links[k].grain_1), 1.0);
@@ -37,12 +37,12 @@ std::vector<std::uint32_t> ordered_for_little_fill(const std::vector<Link<dim>>&
 
 template <int dim>
 StiffnessPattern::StiffnessPattern(const std::vector<Link<dim>>& links, const std::size_t n_grains,
-                                   const std::function<bool(std::uint32_t)>& bears)
-  : places(ordered_for_little_fill(links, n_grains, bears))
+                                   const std::function<bool(std::uint32_t)>& has_stiffness)
+  : places(ordered_for_little_fill(links, n_grains, has_stiffness))
 {
   std::vector<std::vector<std::uint32_t>> neighbours(n_grains); // of each column, in rows below it
   for (std::uint32_t k = 0; k < links.size(); ++k)
-    if (bears(k) && links[k].grain_1 != links[k].grain_2)
+    if (has_stiffness(k) && links[k].grain_1 != links[k].grain_2)
       {
         const auto [column, row] = std::minmax({places[links[k].grain_1], places[links[k].grain_2]});
         neighbours[column].push_back(row);

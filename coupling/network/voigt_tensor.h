@@ -12,7 +12,7 @@ Tensor<dim> strain_tensor(const Voigt<dim>& strain)
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
       const auto [i, j] = voigt_pair<dim>(k);
-      tensor(i, j) = tensor(j, i) = (i == j ? 1.0 : 0.5) * strain[k];
+      tensor(i, j) = tensor(j, i) = strain[k] / engineering_factor<dim>(k);
     }
   return tensor;
 }

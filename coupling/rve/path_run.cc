@@ -22,7 +22,7 @@ std::string describe(const Control<dim>& control)
       const std::string given =
         control.stress_given[k]
           ? fmt::format("stress_{} = {:.6g} MPa", voigt_name<dim>(k), control.stress[k] / 1e6)
-          : fmt::format("strain_{} = {:.6g}", voigt_name<dim>(k), (k < dim ? 1.0 : 0.5) * control.strain[k]);
+          : fmt::format("strain_{} = {:.6g}", voigt_name<dim>(k), control.strain[k] / engineering_factor<dim>(k));
       text += (text.empty() ? "" : ", ") + given;
     }
   return text;

@@ -111,20 +111,4 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
     entry::number("Newton tolerance", &P::newton_tolerance, {'[', 1e-12, 0.1, ']'},
                   "unbalanced over internal force of the sample")};
 }
-
-/// The entries of section Continuum.
-inline std::vector<Entry<ContinuumParameters>> continuum_entries()
-{
-  using P = ContinuumParameters;
-  return {entry::quantity("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
-                          "Young's; as a test in the plane shows it (free across the plane)", {.basic = true}),
-          entry::number("Poisson ratio", &P::poissons_ratio, {'[', 0.0, 1.0, ')'}, "as a test in the plane shows it",
-                        {.basic = true}),
-          entry::quantity("Cohesion", &P::cohesion, Measure::stress, "MPa", ranges::above_zero,
-                          "of Mohr-Coulomb; there is no softening", {.basic = true}),
-          entry::quantity("Friction angle", &P::friction_angle, Measure::angle, "deg", {'(', 0.0, 90.0, ')'},
-                          "of Mohr-Coulomb", {.basic = true}),
-          entry::quantity("Dilation angle", &P::dilation_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
-                          "of Mohr-Coulomb; at most Friction angle")};
-}
 } // namespace feldspar

@@ -62,7 +62,7 @@ void check_walls(const Grains<dim>& grains, const SpecimenParameters& wanted, co
       const Vector<dim> x = at<dim>(grains.position, i);
       const double radius = grains.radius[i];
       const double allowed = largest_overlap * radius;
-      const auto look = [&](const double overlap, const std::string_view wall) {
+      const auto check_inside = [&](const double overlap, const std::string_view wall) {
         if (overlap > allowed)
           throw InputError("{}:{}: reaches through the {} by {:.3g} m; allowed are {:.0f} % of the radius, {:.3g} "
                            "m: make {} and {} those of the grains",
@@ -73,14 +73,14 @@ void check_walls(const Grains<dim>& grains, const SpecimenParameters& wanted, co
       for (int axis = is_round ? dim - 1 : 0; axis < dim; ++axis)
         {
           const bool is_end = axis == dim - 1;
-          look(radius - x[axis], is_end ? "lower end" : axis == 0 ? "left side" : "front side");
-          look(x[axis] + radius - (is_end ? wanted.height : wanted.width), is_end      ? "upper end"
-                                                                           : axis == 0 ? "right side"
-                                                                                       : "back side");
+          check_inside(radius - x[axis], is_end ? "lower end" : axis == 0 ? "left side" : "front side");
+          check_inside(x[axis] + radius - (is_end ? wanted.height : wanted.width), is_end      ? "upper end"
+                                                                                   : axis == 0 ? "right side"
+                                                                                               : "back side");
         }
       if (is_round)
-        look(std::hypot(x[0] - 0.5 * wanted.width, x[1] - 0.5 * wanted.width) + radius - 0.5 * wanted.width,
-             "round side");
+        check_inside(std::hypot(x[0] - 0.5 * wanted.width, x[1] - 0.5 * wanted.width) + radius - 0.5 * wanted.width,
+                     "round side");
     }
 }
 /// A place along an axis; in a periodic cell that of the image inside it, whose two sides are one place.

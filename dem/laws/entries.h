@@ -46,8 +46,8 @@ Entry<P> strength_distribution_entry(const EntryFlags& of_rock)
     of_rock);
 }
 
-/// The entries of section Flat joint, and of those of laws with the same faces.
-template <typename P = FlatJointParameters>
+/// The entries of the flat joint, and of laws with the same faces.
+template <typename P>
 std::vector<Entry<P>> flat_joint_entries()
 {
   const EntryFlags of_rock{.varies = true, .of_specimen = true};
@@ -92,8 +92,14 @@ std::vector<Entry<P>> flat_joint_entries()
   return and_installation(entries, of_rock, basic);
 }
 
-/// The entries of section Softening flat joint.
-inline std::vector<Entry<SofteningFlatJointParameters>> softening_flat_joint_entries()
+// The entries of each joint law, by the type of its parameters; its section has the name of the law.
+
+inline std::vector<Entry<FlatJointParameters>> joint_entries(const FlatJointParameters&)
+{
+  return flat_joint_entries<FlatJointParameters>();
+}
+
+inline std::vector<Entry<SofteningFlatJointParameters>> joint_entries(const SofteningFlatJointParameters&)
 {
   using P = SofteningFlatJointParameters;
   std::vector<Entry<P>> entries = flat_joint_entries<P>();
@@ -113,8 +119,7 @@ inline std::vector<Entry<SofteningFlatJointParameters>> softening_flat_joint_ent
   return entries;
 }
 
-/// The entries of section Parallel bond.
-inline std::vector<Entry<ParallelBondParameters>> parallel_bond_entries()
+inline std::vector<Entry<ParallelBondParameters>> joint_entries(const ParallelBondParameters&)
 {
   using P = ParallelBondParameters;
   const EntryFlags of_rock{.varies = true, .of_specimen = true};

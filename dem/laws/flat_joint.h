@@ -296,6 +296,13 @@ struct FlatJoint : CarriedPlane<dim>
       [&](const unsigned int i) { return state_of(i).bonded; });
   }
 
+  template <typename AnyUpdate>
+  static double normal_stress(const Face<double>& face, const FaceElement<dim>& element,
+                              const FaceMotion<dim, double>& /*motion*/, const AnyUpdate& update)
+  {
+    return mean_stress(place_segment(face, element).segment, update.normal);
+  }
+
   /// No state of a face is stiffer.
   static FaceSprings stiffest(const Face<double>& face) { return face_springs<dim>(face); }
 

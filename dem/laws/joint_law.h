@@ -15,7 +15,7 @@
 /// piece. The grains' dynamics (dem/dynamics) and the network of a representative volume (coupling/rve) ask the same law.
 ///
 /// To add one:
-///   1. Its parameters beside FlatJointParameters (parameters.h), with their entries in entries.h.
+///   1. Its parameters beside FlatJointParameters (parameters.h), with their entries, joint_entries(), in entries.h.
 ///   2. One header here: a struct that fulfils the concept JointLaw below, member by member as FlatJoint (flat_joint.h)
 ///      does. An element is a part of a face with a bond of its own; a face that breaks as a whole is divided into one,
 ///      {1} in the plane and {1, 1} in space.
@@ -112,7 +112,8 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
            const Face<double> face, const std::vector<FaceElement<dim>> elements,
            const std::array<double, n_rotations<dim>> rotation,
            typename Law::template State<double> (*state_of)(unsigned int), const ElementRows<dim> rows,
-           const Motion<dim> motion)
+           const Motion<dim> motion, const FaceMotion<dim, double> motion_of_face,
+           const typename Law::template Update<double> update)
 {
   // The name, by which the input chooses it.
   requires std::convertible_to<decltype(Law::name), std::string_view>;
@@ -131,6 +132,9 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
 
   // Stored in a face, from its opening, its rotation and the states of its elements [J].
   requires std::same_as<decltype(law.stored_energy(face, elements, 0.0, rotation, state_of)), double>;
+
+  // Mean normal stress of an element after its update [Pa].
+  requires std::same_as<decltype(Law::normal_stress(face, elements.front(), motion_of_face, update)), double>;
 
   // Springs for the time step: no state of the face is stiffer.
   requires std::same_as<decltype(law.stiffest(face)), FaceSprings>;

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -24,6 +25,15 @@ struct JointLawList
   using Any = std::variant<Laws<dim>...>;
   /// Parameters of one of the laws.
   using Parameters = std::variant<typename Laws<2>::Parameters...>;
+  /// Those of each of them.
+  using AllParameters = std::tuple<typename Laws<2>::Parameters...>;
+
+  /// Calls f(name, parameters) for each of the laws.
+  template <typename All, typename F>
+  static void for_each(All& all, F&& f)
+  {
+    (f(Laws<2>::name, std::get<typename Laws<2>::Parameters>(all)), ...);
+  }
 
   static std::vector<std::string_view> names() { return {Laws<2>::name...}; }
 

@@ -201,6 +201,13 @@ struct ParallelBond : CarriedPlane<dim>
     return {normal, normal / contact_stiffness_ratio, 0.0, 0.0};
   }
 
+  /// Of the bond.
+  static double normal_stress(const Face<double>& face, const FaceElement<dim>& /*element*/,
+                              const FaceMotion<dim, double>& motion, const Update<double>& update)
+  {
+    return update.state.bonded ? face.normal_stiffness * motion.opening : 0.0;
+  }
+
   /// Bond and contact.
   FaceSprings stiffest(const Face<double>& face) const
   {

@@ -185,8 +185,8 @@ std::vector<std::uint32_t> minerals_of_grains(const Specimen<dim>& specimen, con
     map.colour.empty() ? mineral_at_point<dim>(map, minerals) : mineral_at_cell<dim>(wanted, minerals);
   // The points are as fine as the pixels, within reason.
   constexpr double fewest = dim == 2 ? 6.0 : 4.0, most = dim == 2 ? 40.0 : 12.0;
-  const double wished = map.colour.empty() ? fewest : specimen.report.mean_radius / *wanted.pixel_size;
-  const auto points = points_in_ball<dim>(int(std::ceil(std::clamp(wished, fewest, most))));
+  const double wanted_points = map.colour.empty() ? fewest : specimen.report.mean_radius / *wanted.pixel_size;
+  const auto points = points_in_ball<dim>(int(std::ceil(std::clamp(wanted_points, fewest, most))));
   std::vector<std::uint32_t> result;
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     {

@@ -29,7 +29,7 @@ struct RockParameters
 };
 
 /// Makes the specimen of a rock, or reads that of `rock.specimen.specimen_file`, with its minerals, flaws, mineral grains and clumps.
-/// The seed fixes every bit. Throws InputError where the wish cannot be met. `check` and `check_within` as of make_specimen().
+/// The seed fixes every bit. Throws InputError where they cannot be fulfilled. `check` and `check_within` as of make_specimen().
 template <int dim>
 Specimen<dim> make_rock(
   const RockParameters& rock, std::uint64_t seed, const std::function<void()>& check = [] {},

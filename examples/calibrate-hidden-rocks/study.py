@@ -166,8 +166,8 @@ def main():
         if not all(os.path.exists(os.path.join(work, f"rock-{rock}", "calibration.json")) for rock in range(1, N_ROCKS + 1)):
             return
         with open(RESULTS, "w") as file:
-            json.dump(merged(work), file, indent=2)
-            file.write("\n")
+            json.dump(merged(work), file)
+        subprocess.run([os.path.join(HERE, "../../scripts/keep-results.py"), RESULTS], check=True)
     print_tables()
 
 

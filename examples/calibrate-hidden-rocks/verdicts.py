@@ -113,8 +113,8 @@ def main():
         if not all(os.path.exists(os.path.join(work, f"rock-{rock}-fresh", "summary.json")) for rock in range(1, N_ROCKS + 1)):
             return
         with open(RESULTS, "w") as file:
-            json.dump(merged(work), file, indent=2)
-            file.write("\n")
+            json.dump(merged(work), file)
+        subprocess.run([os.path.join(HERE, "../../scripts/keep-results.py"), RESULTS], check=True)
         with open(README) as file:
             before, rest = file.read().split(MARKERS[0])
         with open(README, "w") as file:

@@ -143,9 +143,9 @@ def main():
         with open(results, encoding="utf-8") as file:
             runs += [one for one in json.load(file)["runs"] if one["geometry"] not in geometries]
     runs.sort(key=lambda one: list(INPUTS).index(one["geometry"]))
-    text = json.dumps({"schema_version": 1, "runs": runs}, indent=1)
     with open(results, "w", encoding="utf-8") as file:
-        file.write(re.sub(r"\[\s+([-\d.e,\s]+?)\s+\]", lambda row: f"[{' '.join(row[1].split())}]", text) + "\n")
+        json.dump({"schema_version": 1, "runs": runs}, file)
+    subprocess.run([os.path.join(HERE, "../../scripts/keep-results.py"), results], check=True)
     draw(runs)
 
 

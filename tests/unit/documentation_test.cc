@@ -26,10 +26,10 @@ using feldspar::tests::documentation_pages;
 const fs::path root = FELDSPAR_SOURCE_DIR;
 
 /// Folders of the tree that paths in the documentation begin with.
-const std::vector<std::string> top_folders = {"app",        "base",    "benchmarks", "calibration", "coupling",
-                                              "dem",        "docs",    "examples",   "fem",         "include",
-                                              "laboratory", "library", "python",     "report",      "results",
-                                              "runs",       "scripts", "tests",      "third_party"};
+const std::vector<std::string> top_folders = {"app",        "base",       "benchmarks", "calibration", "coupling",
+                                              "dem",        "docs",       "examples",   "fem",         "include",
+                                              "interfaces", "laboratory", "library",    "python",      "report",
+                                              "results",    "runs",       "scripts",    "tests",       "third_party"};
 
 /// The anchor that a renderer of Markdown gives a heading: lower case, spaces as hyphens, ASCII punctuation left out.
 std::string anchor(const std::string_view heading)

@@ -33,6 +33,12 @@ namespace feldspar
 {
 namespace
 {
+const FlatJointParameters& flat_joint(const Input& input) { return std::get<FlatJointParameters>(input.joints); }
+const ParallelBondParameters& parallel_bond(const Input& input)
+{
+  return std::get<ParallelBondParameters>(input.joints);
+}
+
 using tests::has;
 using tests::refusal;
 using tests::TemporaryFolder;
@@ -310,8 +316,8 @@ TEST(Input, AnEmptyFileMeansTheDefaults)
   const Input input = read_input(folder.write("empty.prm", "# nothing\n"));
   for (const Parameter& parameter : parameter_table())
     EXPECT_EQ(parameter.write(input), parameter.default_text()) << parameter.name();
-  EXPECT_EQ(input.flat_joint.coordination_number, std::nullopt);
-  EXPECT_EQ(input.flat_joint.installation_gap_ratio, 0.05);
+  EXPECT_EQ(flat_joint(input).coordination_number, std::nullopt);
+  EXPECT_EQ(flat_joint(input).installation_gap_ratio, 0.05);
 }
 
 TEST(Input, ADefaultWrittenOutIsTheDefault)
@@ -367,25 +373,25 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.specimen.packing_shift.back(), 0.054);
   EXPECT_EQ(input.specimen.specimen_file, "");
 
-  EXPECT_EQ(input.flat_joint.n_segments, 3u);
-  EXPECT_EQ(input.flat_joint.n_rings, 3u);
-  EXPECT_EQ(input.flat_joint.n_sectors, 12u);
-  EXPECT_EQ(input.flat_joint.modulus, 70e9);
-  EXPECT_EQ(input.flat_joint.stiffness_ratio, 1.5);
-  EXPECT_EQ(input.flat_joint.friction, 0.6);
-  EXPECT_EQ(input.flat_joint.radius_multiplier, 0.9);
-  EXPECT_EQ(input.flat_joint.bond_tensile_strength, 20e6);
-  EXPECT_EQ(input.flat_joint.bond_tensile_strength_deviation, 2e6);
-  EXPECT_EQ(input.flat_joint.bond_cohesion, 300e6);
-  EXPECT_EQ(input.flat_joint.bond_cohesion_deviation, 30e6);
-  EXPECT_DOUBLE_EQ(input.flat_joint.bond_friction_angle, std::numbers::pi / 12.0);
-  EXPECT_EQ(input.flat_joint.strength_distribution, StrengthDistribution::weibull);
-  EXPECT_EQ(input.flat_joint.strength_draw, StrengthDraw::per_contact);
-  EXPECT_EQ(input.flat_joint.installation_gap_ratio, 0.05);
-  EXPECT_EQ(input.flat_joint.coordination_number, std::nullopt);
-  EXPECT_EQ(input.flat_joint.gapped_fraction, 0.1);
-  EXPECT_EQ(input.flat_joint.slit_fraction, 0.2);
-  EXPECT_DOUBLE_EQ(input.flat_joint.initial_gap, 1e-6);
+  EXPECT_EQ(flat_joint(input).n_segments, 3u);
+  EXPECT_EQ(flat_joint(input).n_rings, 3u);
+  EXPECT_EQ(flat_joint(input).n_sectors, 12u);
+  EXPECT_EQ(flat_joint(input).modulus, 70e9);
+  EXPECT_EQ(flat_joint(input).stiffness_ratio, 1.5);
+  EXPECT_EQ(flat_joint(input).friction, 0.6);
+  EXPECT_EQ(flat_joint(input).radius_multiplier, 0.9);
+  EXPECT_EQ(flat_joint(input).bond_tensile_strength, 20e6);
+  EXPECT_EQ(flat_joint(input).bond_tensile_strength_deviation, 2e6);
+  EXPECT_EQ(flat_joint(input).bond_cohesion, 300e6);
+  EXPECT_EQ(flat_joint(input).bond_cohesion_deviation, 30e6);
+  EXPECT_DOUBLE_EQ(flat_joint(input).bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(flat_joint(input).strength_distribution, StrengthDistribution::weibull);
+  EXPECT_EQ(flat_joint(input).strength_draw, StrengthDraw::per_contact);
+  EXPECT_EQ(flat_joint(input).installation_gap_ratio, 0.05);
+  EXPECT_EQ(flat_joint(input).coordination_number, std::nullopt);
+  EXPECT_EQ(flat_joint(input).gapped_fraction, 0.1);
+  EXPECT_EQ(flat_joint(input).slit_fraction, 0.2);
+  EXPECT_DOUBLE_EQ(flat_joint(input).initial_gap, 1e-6);
 
   EXPECT_EQ(input.particle_contact.modulus, 60e9);
   EXPECT_EQ(input.particle_contact.stiffness_ratio, 2.5);
@@ -456,7 +462,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.shared_body, SharedBody::always);
   const auto both = variants(input);
   ASSERT_EQ(both.size(), 2u);
-  EXPECT_EQ(both[0].input.flat_joint.n_segments, 2u);
+  EXPECT_EQ(flat_joint(both[0].input).n_segments, 2u);
   EXPECT_EQ(both[1].label, "Flat joint/Segments = 4");
   EXPECT_EQ(input.seeds, (std::vector<std::uint64_t>{7, 1, 2, 3}));
   EXPECT_DOUBLE_EQ(input.contact.radius_1, 0.002);
@@ -654,21 +660,21 @@ end
   const Input input = read_input(folder.write("bonds.prm", bonds));
   EXPECT_EQ(scan_prm("bonds.prm", std::string(bonds)).size(), entry_names("Parallel bond").size() + 1);
   EXPECT_EQ(input.specimen.joint_law, "parallel bond");
-  EXPECT_EQ(input.parallel_bond.modulus, 70e9);
-  EXPECT_EQ(input.parallel_bond.stiffness_ratio, 1.5);
-  EXPECT_EQ(input.parallel_bond.radius_multiplier, 0.9);
-  EXPECT_EQ(input.parallel_bond.moment_contribution, 0.5);
-  EXPECT_EQ(input.parallel_bond.bond_tensile_strength, 20e6);
-  EXPECT_EQ(input.parallel_bond.bond_tensile_strength_deviation, 2e6);
-  EXPECT_EQ(input.parallel_bond.bond_cohesion, 300e6);
-  EXPECT_EQ(input.parallel_bond.bond_cohesion_deviation, 30e6);
-  EXPECT_EQ(input.parallel_bond.strength_distribution, StrengthDistribution::weibull);
-  EXPECT_DOUBLE_EQ(input.parallel_bond.bond_friction_angle, std::numbers::pi / 12.0);
-  EXPECT_EQ(input.parallel_bond.installation_gap_ratio, 0.07);
-  EXPECT_EQ(input.parallel_bond.coordination_number, std::nullopt);
-  EXPECT_EQ(input.parallel_bond.gapped_fraction, 0.1);
-  EXPECT_EQ(input.parallel_bond.slit_fraction, 0.2);
-  EXPECT_DOUBLE_EQ(input.parallel_bond.initial_gap, 1e-6);
+  EXPECT_EQ(parallel_bond(input).modulus, 70e9);
+  EXPECT_EQ(parallel_bond(input).stiffness_ratio, 1.5);
+  EXPECT_EQ(parallel_bond(input).radius_multiplier, 0.9);
+  EXPECT_EQ(parallel_bond(input).moment_contribution, 0.5);
+  EXPECT_EQ(parallel_bond(input).bond_tensile_strength, 20e6);
+  EXPECT_EQ(parallel_bond(input).bond_tensile_strength_deviation, 2e6);
+  EXPECT_EQ(parallel_bond(input).bond_cohesion, 300e6);
+  EXPECT_EQ(parallel_bond(input).bond_cohesion_deviation, 30e6);
+  EXPECT_EQ(parallel_bond(input).strength_distribution, StrengthDistribution::weibull);
+  EXPECT_DOUBLE_EQ(parallel_bond(input).bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(parallel_bond(input).installation_gap_ratio, 0.07);
+  EXPECT_EQ(parallel_bond(input).coordination_number, std::nullopt);
+  EXPECT_EQ(parallel_bond(input).gapped_fraction, 0.1);
+  EXPECT_EQ(parallel_bond(input).slit_fraction, 0.2);
+  EXPECT_DOUBLE_EQ(parallel_bond(input).initial_gap, 1e-6);
   EXPECT_EQ(error_of("a.prm", "subsection Specimen\nset Joint law = parallel bond\nend\nsubsection Parallel bond\n"
                               "set Slit fraction = 0.7\nset Gapped fraction = 0.7\nend"),
             "a.prm:5: Parallel bond/Slit fraction = 0.7: must be at most 1 together with Gapped fraction = 0.7");
@@ -818,8 +824,8 @@ TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
   EXPECT_EQ(labels("set Table = tests.csv\n"), two);
 
   const auto all = variants(read_input(folder.write("a.prm", "subsection Variants\nset Table = plan.csv\nend\n")));
-  EXPECT_EQ(all[1].input.flat_joint.friction, 0.6);
-  EXPECT_EQ(all[1].input.flat_joint.bond_cohesion, 120e6);
+  EXPECT_EQ(flat_joint(all[1].input).friction, 0.6);
+  EXPECT_EQ(flat_joint(all[1].input).bond_cohesion, 120e6);
   ASSERT_EQ(all[1].settings.size(), 2u);
   const auto written = number_of(all[1].settings[1]);
   ASSERT_TRUE(written);
@@ -875,7 +881,7 @@ end
     in_plane.erase(in_plane.find(line), line.size());
   const TemporaryFolder folder;
   const Input input = read_input(folder.write("joints.prm", in_plane));
-  const SofteningFlatJointParameters& read = input.softening_flat_joint;
+  const SofteningFlatJointParameters& read = std::get<SofteningFlatJointParameters>(input.joints);
   EXPECT_EQ(read.n_segments, 3u);
   EXPECT_EQ(read.modulus, 70e9);
   EXPECT_EQ(read.stiffness_ratio, 1.5);
@@ -894,7 +900,7 @@ end
   EXPECT_EQ(read.slit_fraction, 0.2);
   EXPECT_DOUBLE_EQ(read.initial_gap, 1e-6);
   EXPECT_DOUBLE_EQ(read.softening_opening, 3e-6);
-  EXPECT_EQ(input.flat_joint.n_segments, 4u) << "the section of another law";
+  EXPECT_EQ(flat_joint(input).n_segments, 4u) << "the section of another law";
   EXPECT_EQ(error_of("a.prm", "subsection Specimen\nset Joint law = softening flat joint\nend\n"
                               "subsection Softening flat joint\nset Softening opening = -1 um\nend"),
             "a.prm:5: Softening flat joint/Softening opening = -1 um: must lie in [0 um, 1000000 um]");
@@ -919,10 +925,10 @@ end
   ASSERT_EQ(both.size(), 2u);
   EXPECT_EQ(both[0].input.specimen.joint_law, "flat joint");
   EXPECT_EQ(both[1].input.specimen.joint_law, "parallel bond");
-  EXPECT_EQ(both[0].input.flat_joint.n_segments, 3u);
-  EXPECT_EQ(both[0].input.flat_joint.installation_gap_ratio, 0.05);
-  EXPECT_EQ(both[1].input.parallel_bond.bond_cohesion, 70e6);
-  EXPECT_EQ(both[1].input.parallel_bond.coordination_number, std::nullopt);
+  EXPECT_EQ(flat_joint(both[0].input).n_segments, 3u);
+  EXPECT_EQ(flat_joint(both[0].input).installation_gap_ratio, 0.05);
+  EXPECT_EQ(parallel_bond(both[1].input).bond_cohesion, 70e6);
+  EXPECT_EQ(parallel_bond(both[1].input).coordination_number, std::nullopt);
   // Each is told with its own section alone, and without smooth joints, minerals and the form of clumps, which neither has.
   for (const Parameter& parameter : parameter_table())
     {
@@ -1004,7 +1010,7 @@ end
 })"));
   for (const Parameter& parameter : parameter_table())
     EXPECT_EQ(parameter.write(from_json), parameter.write(from_prm)) << parameter.name();
-  EXPECT_EQ(from_json.flat_joint.bond_tensile_strength, 21.5e6);
+  EXPECT_EQ(flat_joint(from_json).bond_tensile_strength, 21.5e6);
 }
 
 TEST(Input, ReadsTheSameWhereTheDecimalSignIsAComma)
@@ -1024,8 +1030,8 @@ TEST(Input, ReadsTheSameWhereTheDecimalSignIsAComma)
 
   for (const Parameter& parameter : parameter_table())
     EXPECT_EQ(parameter.write(in_german), parameter.write(in_c)) << parameter.name();
-  EXPECT_EQ(in_german.flat_joint.modulus, in_c.flat_joint.modulus);
-  EXPECT_EQ(json_in_german.flat_joint.friction, 0.35);
+  EXPECT_EQ(flat_joint(in_german).modulus, flat_joint(in_c).modulus);
+  EXPECT_EQ(flat_joint(json_in_german).friction, 0.35);
 }
 
 TEST(Input, AllowsWindowsLinesAndTheMarkOfUtf8)
@@ -1033,7 +1039,7 @@ TEST(Input, AllowsWindowsLinesAndTheMarkOfUtf8)
   const TemporaryFolder folder;
   const Input input =
     read_input(folder.write("a.prm", "\xEF\xBB\xBFsubsection Flat joint\r\n\tset Segments\t=\t5\r\nend\r\n"));
-  EXPECT_EQ(input.flat_joint.n_segments, 5u);
+  EXPECT_EQ(flat_joint(input).n_segments, 5u);
 }
 
 TEST(Input, ErrorsNameTheLineOnWhichAnEntryStarts)
@@ -1133,15 +1139,15 @@ TEST(Input, TheInstallationGapFollowsFromOneEntry)
   const TemporaryFolder folder;
   const Input by_gap =
     read_input(folder.write("a.prm", "subsection Flat joint\nset Installation gap ratio = 0.1\nend"));
-  EXPECT_EQ(by_gap.flat_joint.installation_gap_ratio, 0.1);
-  EXPECT_EQ(by_gap.flat_joint.coordination_number, std::nullopt);
+  EXPECT_EQ(flat_joint(by_gap).installation_gap_ratio, 0.1);
+  EXPECT_EQ(flat_joint(by_gap).coordination_number, std::nullopt);
   EXPECT_NE(error_of("a.prm", "subsection Flat joint\n"
                               "set Installation gap ratio = 0.1\nset Coordination number = 4.2\nend"),
             "");
   const Input by_number =
     read_input(folder.write("a.prm", "subsection Flat joint\nset Coordination number = 4.2\nend"));
-  EXPECT_EQ(by_number.flat_joint.installation_gap_ratio, std::nullopt);
-  EXPECT_EQ(by_number.flat_joint.coordination_number, 4.2);
+  EXPECT_EQ(flat_joint(by_number).installation_gap_ratio, std::nullopt);
+  EXPECT_EQ(flat_joint(by_number).coordination_number, 4.2);
   // Entries in files from before the gap was the default, and in `best.prm` of calibrations.
   EXPECT_EQ(error_of("a.prm", "subsection Flat joint\n"
                               "set Installation gap ratio = none\nset Coordination number = 4.2\nend"),

@@ -1,5 +1,6 @@
-// The grammar of the input stands in the command and in files of entries: libraries name no section, no entry and no
-// command. Messages name parameters by base/parameter_id.h, results by laboratory/named_entries.h.
+// The grammar of the input stands in the command, in files of entries, and with callers from outside, who give entries
+// (library/, interfaces/, Python): all other libraries name no section, no entry and no command. Messages name parameters
+// by base/parameter_id.h, results by laboratory/named_entries.h.
 
 #include "app/input/parameter_table.h"
 #include "laboratory/named_entries.h"
@@ -33,7 +34,7 @@ std::string without_entries(const std::string& source)
   bool declares_entries = false;
   for (std::string line; std::getline(lines, line);)
     {
-      const bool begins = line.starts_with("std::vector<Entry<");
+      const bool begins = line.starts_with("std::vector<Entry<") || line.starts_with("inline std::vector<Entry<");
       declares_entries = declares_entries || (begins && !line.ends_with(';'));
       if (!declares_entries && !begins && line.find(mark_of_specimen_files) == std::string::npos)
         rest += line + '\n';
@@ -108,7 +109,8 @@ std::string content(const fs::path& path)
 TEST(InputWords, StandInTheCommandAndInFilesOfEntries)
 {
   std::size_t n_files = 0;
-  for (const char* const top : {"base", "laboratory", "dem", "fem", "coupling", "results", "report", "calibration"})
+  for (const char* const top :
+       {"base", "laboratory", "dem", "fem", "coupling", "results", "report", "calibration", "runs"})
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source_root / top))
       {
         const fs::path& path = entry.path();

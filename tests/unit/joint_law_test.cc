@@ -70,6 +70,11 @@ struct ElasticBond : CarriedPlane<dim>
   }
 
   static double friction(const Parameters&, const ParticleContactParameters&) { return 0.0; }
+  static double normal_stress(const Face<double>& face, const FaceElement<dim>&, const FaceMotion<dim, double>& motion,
+                              const Update<double>& update)
+  {
+    return update.state.bonded ? face.normal_stiffness * motion.opening : 0.0;
+  }
   static FaceSprings stiffest(const Face<double>& face) { return face_springs<dim>(face); }
 
   template <typename Real>
