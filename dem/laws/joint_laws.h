@@ -25,7 +25,7 @@ struct JointLawList
   using Any = std::variant<Laws<dim>...>;
   /// Parameters of one of the laws.
   using Parameters = std::variant<typename Laws<2>::Parameters...>;
-  /// Those of each of them.
+  /// Parameters of each of them.
   using AllParameters = std::tuple<typename Laws<2>::Parameters...>;
 
   /// Calls f(name, parameters) for each of the laws.

@@ -201,7 +201,7 @@ struct ParallelBond : CarriedPlane<dim>
     return {normal, normal / contact_stiffness_ratio, 0.0, 0.0};
   }
 
-  /// Of the bond.
+  /// Normal stress of the bond [Pa].
   static double normal_stress(const Face<double>& face, const FaceElement<dim>& /*element*/,
                               const FaceMotion<dim, double>& motion, const Update<double>& update)
   {
