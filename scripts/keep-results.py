@@ -80,14 +80,14 @@ ALL_KEYS = ("calibrate-hidden-rocks/", "beishan-cylinder/full-size.json", "multi
 
 
 def kept(value, names, key=""):
-    """The part of a value whose keys are among names, all without; None where nothing of it applies."""
+    """The part of a value whose keys are among names; None where nothing of it applies. Without names all, unrounded."""
     if isinstance(value, dict):
         every = names is None or key in NAMED_BY_DATA or (key == "parameters" and "targets" in names)
         parts = {name: kept(part, names, name) for name, part in value.items() if every or name in names}
         return {name: part for name, part in parts.items() if part not in (None, {}, NEVER)} or None
     if isinstance(value, list):
         return [kept(part, names) for part in value]
-    if isinstance(value, float) and key not in WHOLE:
+    if isinstance(value, float) and names is not None and key not in WHOLE:
         value = float(f"{value:.{DIGITS}g}")
         return int(value) if value.is_integer() else value
     return None if key == "interrupted" and not value else value
