@@ -195,7 +195,11 @@ SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints, const
 template <int dim>
 void sum_forces_behind(const std::size_t block, Specimen<dim>& body, const SumOrder& order)
 {
-  sum_over_joints(body, order, order.first_behind[block], order.first_behind[block + 1]);
+  const std::size_t first = order.first_behind[block], end = order.first_behind[block + 1];
+  if constexpr (dim == 2) // their responses are still in the cache
+    sum_over_joints_of<false>(body, order, first, end);
+  else
+    sum_over_joints(body, order, first, end);
 }
 
 template <int dim>
