@@ -93,17 +93,17 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
   for_each_job(orders.size(), [&](const std::size_t job) {
     end_if_interrupted();
     const Order& order = orders[job];
+    const auto& joint = std::get<FlatJointParameters>(order.rock.joints);
     Constants mean{0.0, 0.0};
     for (const Specimen<dim>& packing : packings)
       {
         Specimen<dim> specimen = packing;
         specimen.joints = {};
         specimen.particle_contact = order.rock.particle_contact;
-        install_joints(specimen, std::get<FlatJointParameters>(order.rock.joints));
+        install_joints(specimen, joint);
         put_in_minerals(specimen, order.rock.minerals);
         const IsotropicConstants of_cell = isotropic_constants<dim>(Network<dim>(specimen).intact_stiffness());
-        mean.modulus_ratio +=
-          of_cell.youngs_modulus / std::get<FlatJointParameters>(order.rock.joints).modulus / double(n_packings);
+        mean.modulus_ratio += of_cell.youngs_modulus / joint.modulus / double(n_packings);
         mean.poissons_ratio += of_cell.poissons_ratio / double(n_packings);
       }
     constants[order.gap][order.ratio] = mean;

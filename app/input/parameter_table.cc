@@ -44,7 +44,7 @@ std::vector<Parameter> make_parameter_table()
   };
   add("Specimen", &Input::specimen, specimen_entries());
   add("Specimen", &Input::specimen, sieve_curve_entries());
-  static const JointLaws::AllParameters joints;
+  const JointLaws::AllParameters joints;
   JointLaws::for_each(joints, [&]<typename P>(const std::string_view law, const P& parameters) {
     add(
       section_of(law), [](auto& input) -> auto& { return std::get<P>(input.joints); }, joint_entries(parameters));

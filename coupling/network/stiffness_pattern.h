@@ -14,7 +14,7 @@ namespace feldspar
 class StiffnessPattern
 {
 public:
-  /// Pattern of the links that have a stiffness, as `has_stiffness` says. A factor of 600 spheres that also holds their pairs
+  /// Pattern of the links that have a stiffness. A factor of 600 spheres that also holds their pairs
   /// without a face has half as many blocks again, and takes twice the operations.
   template <int dim>
   StiffnessPattern(const std::vector<Link<dim>>& links, std::size_t n_grains,

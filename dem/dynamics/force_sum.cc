@@ -196,7 +196,7 @@ template <int dim>
 void sum_forces_behind(const std::size_t block, Specimen<dim>& body, const SumOrder& order)
 {
   const std::size_t first = order.first_behind[block], end = order.first_behind[block + 1];
-  if constexpr (dim == 2) // their responses are still in the cache
+  if constexpr (dim == 2) // responses of these joints are still in the cache
     sum_over_joints_of<false>(body, order, first, end);
   else
     sum_over_joints(body, order, first, end);

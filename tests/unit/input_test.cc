@@ -39,6 +39,25 @@ const ParallelBondParameters& parallel_bond(const Input& input)
   return std::get<ParallelBondParameters>(input.joints);
 }
 
+/// What inputs of this file set of the joints of any law.
+template <typename Parameters>
+void expect_bonds_as_set(const Parameters& joint)
+{
+  EXPECT_EQ(joint.modulus, 70e9);
+  EXPECT_EQ(joint.stiffness_ratio, 1.5);
+  EXPECT_EQ(joint.radius_multiplier, 0.9);
+  EXPECT_EQ(joint.bond_tensile_strength, 20e6);
+  EXPECT_EQ(joint.bond_tensile_strength_deviation, 2e6);
+  EXPECT_EQ(joint.bond_cohesion, 300e6);
+  EXPECT_EQ(joint.bond_cohesion_deviation, 30e6);
+  EXPECT_EQ(joint.strength_distribution, StrengthDistribution::weibull);
+  EXPECT_EQ(joint.coordination_number, std::nullopt);
+  EXPECT_EQ(joint.gapped_fraction, 0.1);
+  EXPECT_EQ(joint.slit_fraction, 0.2);
+  EXPECT_DOUBLE_EQ(joint.bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_DOUBLE_EQ(joint.initial_gap, 1e-6);
+}
+
 using tests::has;
 using tests::refusal;
 using tests::TemporaryFolder;
@@ -376,22 +395,10 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(flat_joint(input).n_segments, 3u);
   EXPECT_EQ(flat_joint(input).n_rings, 3u);
   EXPECT_EQ(flat_joint(input).n_sectors, 12u);
-  EXPECT_EQ(flat_joint(input).modulus, 70e9);
-  EXPECT_EQ(flat_joint(input).stiffness_ratio, 1.5);
   EXPECT_EQ(flat_joint(input).friction, 0.6);
-  EXPECT_EQ(flat_joint(input).radius_multiplier, 0.9);
-  EXPECT_EQ(flat_joint(input).bond_tensile_strength, 20e6);
-  EXPECT_EQ(flat_joint(input).bond_tensile_strength_deviation, 2e6);
-  EXPECT_EQ(flat_joint(input).bond_cohesion, 300e6);
-  EXPECT_EQ(flat_joint(input).bond_cohesion_deviation, 30e6);
-  EXPECT_DOUBLE_EQ(flat_joint(input).bond_friction_angle, std::numbers::pi / 12.0);
-  EXPECT_EQ(flat_joint(input).strength_distribution, StrengthDistribution::weibull);
   EXPECT_EQ(flat_joint(input).strength_draw, StrengthDraw::per_contact);
   EXPECT_EQ(flat_joint(input).installation_gap_ratio, 0.05);
-  EXPECT_EQ(flat_joint(input).coordination_number, std::nullopt);
-  EXPECT_EQ(flat_joint(input).gapped_fraction, 0.1);
-  EXPECT_EQ(flat_joint(input).slit_fraction, 0.2);
-  EXPECT_DOUBLE_EQ(flat_joint(input).initial_gap, 1e-6);
+  expect_bonds_as_set(flat_joint(input));
 
   EXPECT_EQ(input.particle_contact.modulus, 60e9);
   EXPECT_EQ(input.particle_contact.stiffness_ratio, 2.5);
@@ -660,21 +667,9 @@ end
   const Input input = read_input(folder.write("bonds.prm", bonds));
   EXPECT_EQ(scan_prm("bonds.prm", std::string(bonds)).size(), entry_names("Parallel bond").size() + 1);
   EXPECT_EQ(input.specimen.joint_law, "parallel bond");
-  EXPECT_EQ(parallel_bond(input).modulus, 70e9);
-  EXPECT_EQ(parallel_bond(input).stiffness_ratio, 1.5);
-  EXPECT_EQ(parallel_bond(input).radius_multiplier, 0.9);
   EXPECT_EQ(parallel_bond(input).moment_contribution, 0.5);
-  EXPECT_EQ(parallel_bond(input).bond_tensile_strength, 20e6);
-  EXPECT_EQ(parallel_bond(input).bond_tensile_strength_deviation, 2e6);
-  EXPECT_EQ(parallel_bond(input).bond_cohesion, 300e6);
-  EXPECT_EQ(parallel_bond(input).bond_cohesion_deviation, 30e6);
-  EXPECT_EQ(parallel_bond(input).strength_distribution, StrengthDistribution::weibull);
-  EXPECT_DOUBLE_EQ(parallel_bond(input).bond_friction_angle, std::numbers::pi / 12.0);
   EXPECT_EQ(parallel_bond(input).installation_gap_ratio, 0.07);
-  EXPECT_EQ(parallel_bond(input).coordination_number, std::nullopt);
-  EXPECT_EQ(parallel_bond(input).gapped_fraction, 0.1);
-  EXPECT_EQ(parallel_bond(input).slit_fraction, 0.2);
-  EXPECT_DOUBLE_EQ(parallel_bond(input).initial_gap, 1e-6);
+  expect_bonds_as_set(parallel_bond(input));
   EXPECT_EQ(error_of("a.prm", "subsection Specimen\nset Joint law = parallel bond\nend\nsubsection Parallel bond\n"
                               "set Slit fraction = 0.7\nset Gapped fraction = 0.7\nend"),
             "a.prm:5: Parallel bond/Slit fraction = 0.7: must be at most 1 together with Gapped fraction = 0.7");
