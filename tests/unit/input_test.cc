@@ -39,7 +39,7 @@ const ParallelBondParameters& parallel_bond(const Input& input)
   return std::get<ParallelBondParameters>(input.joints);
 }
 
-/// What inputs of this file set of the joints of any law.
+/// Compares with the values that inputs of this file give to the joints of any law.
 template <typename Parameters>
 void expect_bonds_as_set(const Parameters& joint)
 {
